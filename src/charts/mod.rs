@@ -1,0 +1,1 @@
+//! Figures, drawn by plotters: one function a figure, one style file.

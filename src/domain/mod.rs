@@ -1,0 +1,93 @@
+//! Ω: a planar straight-line graph (PSLG, §2.1) and which of its faces are to be meshed.
+
+use crate::geometry::{DVec2, Rect};
+
+/// An input segment between two vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Segment {
+    /// Index of the first end in [`Domain::vertices`].
+    pub a: usize,
+    /// Index of the second end.
+    pub b: usize,
+    /// The user's marker, 0 where none was given.
+    pub marker: i32,
+    /// The face on the left of a → b, an index into [`Domain::faces`].
+    pub left: usize,
+    /// The face on the right of a → b.
+    pub right: usize,
+}
+
+/// A face of the planar subdivision. Face 0 is the unbounded one, always outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Face {
+    /// Whether the face belongs to Ω.
+    pub inside: bool,
+    /// The region attribute given by the user, 0 where none was given.
+    pub region: f64,
+}
+
+/// The domain to mesh: a valid PSLG. Vertices and segments that no inside face touches have been left out.
+#[derive(Clone, Debug)]
+pub struct Domain {
+    name: String,
+    vertices: Vec<DVec2>,
+    vertex_markers: Vec<i32>,
+    segments: Vec<Segment>,
+    faces: Vec<Face>,
+    bounds: Rect,
+    area: f64,
+}
+
+impl Domain {
+    /// Gallery name or file stem.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Input vertices, in input order.
+    pub fn vertices(&self) -> &[DVec2] {
+        &self.vertices
+    }
+
+    /// One marker a vertex.
+    pub fn vertex_markers(&self) -> &[i32] {
+        &self.vertex_markers
+    }
+
+    /// Input segments, in input order.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Faces; a segment's `left` and `right` point here.
+    pub fn faces(&self) -> &[Face] {
+        &self.faces
+    }
+
+    /// The two ends of segment `s`.
+    pub fn ends(&self, s: usize) -> [DVec2; 2] {
+        let segment = &self.segments[s];
+        [self.vertices[segment.a], self.vertices[segment.b]]
+    }
+
+    /// The smallest axis-aligned box around the vertices.
+    pub fn bounds(&self) -> Rect {
+        self.bounds
+    }
+
+    /// Area of the inside faces.
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// Whether exactly one side of segment `s` is inside: the front starts there.
+    pub fn is_boundary(&self, s: usize) -> bool {
+        let segment = &self.segments[s];
+        self.faces[segment.left].inside != self.faces[segment.right].inside
+    }
+
+    /// Whether `x` lies in an inside face or on a segment, decided exactly.
+    pub fn contains(&self, _x: DVec2) -> bool {
+        unimplemented!("the domain part provides this")
+    }
+}

@@ -1,0 +1,1 @@
+//! Plans (TOML), the runner and the rows it leaves.

@@ -1,0 +1,58 @@
+//! Points, exact predicates, and near-queries.
+//!
+//! Every sign in the project comes from [`predicates`]; every tolerance from [`tolerance`].
+
+pub mod predicates;
+pub mod tolerance;
+
+pub use glam::DVec2;
+
+/// An axis-aligned box, closed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    /// Lower left corner.
+    pub min: DVec2,
+    /// Upper right corner.
+    pub max: DVec2,
+}
+
+impl Rect {
+    /// The box that holds nothing; growing it by a point gives that point.
+    pub const EMPTY: Self = Self {
+        min: DVec2::INFINITY,
+        max: DVec2::NEG_INFINITY,
+    };
+
+    /// The smallest box around `points`.
+    pub fn around(points: impl IntoIterator<Item = DVec2>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |r, p| Self {
+            min: r.min.min(p),
+            max: r.max.max(p),
+        })
+    }
+
+    /// Width and height.
+    pub fn size(self) -> DVec2 {
+        self.max - self.min
+    }
+
+    /// The middle of the box.
+    pub fn centre(self) -> DVec2 {
+        0.5 * (self.min + self.max)
+    }
+
+    /// Length of the diagonal; the scale tolerances are relative to.
+    pub fn diagonal(self) -> f64 {
+        self.size().length()
+    }
+
+    /// Euclidean distance from `x` to the box, 0 inside.
+    pub fn distance(self, x: DVec2) -> f64 {
+        (self.min - x).max(x - self.max).max(DVec2::ZERO).length()
+    }
+
+    /// Whether `x` lies in the closed box.
+    pub fn contains(self, x: DVec2) -> bool {
+        x.cmpge(self.min).all() && x.cmple(self.max).all()
+    }
+}

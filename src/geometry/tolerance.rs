@@ -1,0 +1,11 @@
+//! Every tolerance of the project, each relative to a length named in its comment, each with its reason.
+
+/// Certificate: biting circles are enlarged, and packing circles shrunk, by this share of their radius. Centres are
+/// intersections of circles, computed to a few ulp of the coordinates; 1e-9 leaves that room down to circles of a
+/// millionth of the domain and is far below anything that shows in a mesh.
+pub const CERTIFICATE: f64 = 1e-9;
+
+/// Biting: a point counts as inside an open circle only if it is inside the one shrunk by this share of its radius.
+/// On uniform spacing every front vertex lies on up to six circles at once; erring towards "not covered" keeps such
+/// vertices, and a hundredth of [`CERTIFICATE`] can never make the certificate fail.
+pub const COVERED: f64 = 1e-11;

@@ -1,0 +1,35 @@
+//! The result of a mesher: triangles over points, with the input's vertices, segments and regions still known.
+
+use crate::geometry::DVec2;
+
+/// A piece of an input segment that became a mesh edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// Index of the end nearer to the segment's first vertex.
+    pub a: u32,
+    /// Index of the other end.
+    pub b: u32,
+    /// The input segment it lies on, an index into [`crate::domain::Domain::segments`].
+    pub segment: u32,
+}
+
+/// A conforming triangle mesh. The domain's vertices come first, in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Vertex positions.
+    pub points: Vec<DVec2>,
+    /// One marker a point: the input's for input vertices, the segment's for points on a segment, else 0.
+    pub point_markers: Vec<i32>,
+    /// Counter-clockwise triangles, as indices into `points`.
+    pub triangles: Vec<[u32; 3]>,
+    /// The region attribute of each triangle.
+    pub regions: Vec<f64>,
+    /// The input segments, cut into mesh edges; in segment order, along each segment from its first vertex.
+    pub pieces: Vec<Piece>,
+    /// One marker a piece: its segment's.
+    pub piece_markers: Vec<i32>,
+    /// How many of `points`, from the front, are input vertices.
+    pub input_vertices: usize,
+    /// Pieces that are no Delaunay edges and stand only because they were forced.
+    pub forced_pieces: usize,
+}
