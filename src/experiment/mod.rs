@@ -1,1 +1,3 @@
 //! Plans (TOML), the runner and the rows it leaves.
+
+pub mod record;

@@ -1,0 +1,149 @@
+//! A [`Report`] says all about one mesh; a [`Row`] is one line of an experiment, failures included.
+
+use crate::quality::{Certificate, Statistics};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Seconds, in all and by the paper's step names, in the order they ran.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seconds {
+    /// From domain and spacing in memory to mesh in memory.
+    pub total: f64,
+    /// By step.
+    pub steps: serde_json::Map<String, serde_json::Value>,
+}
+
+/// What made a row: enough to make it again.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// Version of this crate.
+    pub version: String,
+    /// Commit, empty outside a checkout.
+    pub commit: String,
+    /// Whether the work tree had changes.
+    pub dirty: bool,
+    /// Compiler.
+    pub rustc: String,
+    /// Processor model.
+    pub cpu: String,
+    /// Cores the process may use.
+    pub cores: usize,
+    /// Operating system.
+    pub os: String,
+    /// Start of the run, RFC 3339, UTC.
+    pub date: String,
+}
+
+/// All about one mesh. Field names are fixed by `design.md`; lengths are in the domain's unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Gallery name or file stem.
+    pub domain: String,
+    /// Name in `MESHERS`.
+    pub mesher: String,
+    /// The mesher's own parameters, all of them.
+    pub params: serde_json::Map<String, serde_json::Value>,
+    /// The spacing as asked for.
+    pub spacing: String,
+    /// Nominal t = α c_b.
+    pub t: f64,
+    /// c_b times the Lipschitz constant of the spacing as evaluated.
+    pub t_effective: f64,
+    /// Biting constant.
+    pub c_b: f64,
+    /// t / c_b: what the spacing is limited to.
+    pub alpha: f64,
+    /// Seed.
+    pub seed: u64,
+    /// Hypothesis: the spacing was capped by lfs.
+    pub lfs_cap: bool,
+    /// Hypothesis: smallest angle between neighbouring segments that opens into the domain, degrees; 360 if none.
+    pub smallest_input_angle_deg: f64,
+    /// Hypothesis: smallest angle between neighbouring segments on any side, inside or out, degrees; 360 if none.
+    pub smallest_segment_angle_deg: f64,
+    /// Pieces that are no Delaunay edges.
+    pub forced_pieces: usize,
+    /// ∫_Ω dA / f², and its estimated relative error.
+    pub integral: f64,
+    /// Estimated relative error of `integral`.
+    pub integral_error: f64,
+    /// ∫_Ω dA / lfs².
+    pub integral_lfs: f64,
+    /// triangles / integral.
+    pub size_ratio: f64,
+    /// triangles / integral_lfs.
+    pub size_ratio_lfs: f64,
+    /// triangles · (√3 / 4) c_b² / integral.
+    pub size_efficiency: f64,
+    /// asin(1/2 − t_effective) in degrees, 0 for t ≥ 1/2: Theorem 6.8.
+    pub min_angle_bound_deg: f64,
+    /// Counts and angles.
+    #[serde(flatten)]
+    pub statistics: Statistics,
+    /// Time.
+    pub seconds: Seconds,
+    /// Peak resident memory of the process, bytes; 0 where the system does not tell.
+    pub peak_rss_bytes: u64,
+    /// Counts the mesher reports of itself, such as bites.
+    pub counts: BTreeMap<String, f64>,
+    /// The certificate.
+    pub certificate: Certificate,
+    /// What made it.
+    pub provenance: Provenance,
+}
+
+/// How a cell of an experiment ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// Measured; the report is there.
+    Measured,
+    /// The estimate was above the cell budget.
+    Skipped,
+    /// The mesher declined, or stopped at a budget.
+    Declined,
+    /// It failed.
+    Failed,
+}
+
+/// One line of `rows.jsonl`: one cell of an experiment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Identifies the cell: a resumed run skips cells whose key has a row.
+    pub key: String,
+    /// Which group of cells of the plan it belongs to: `grid`, `orders`, `time`, …
+    pub group: String,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Why it did not end measured.
+    pub reason: Option<String>,
+    /// Triangles expected before the run, from ∫ dA / f².
+    pub estimated_triangles: f64,
+    /// Domain, mesher, parameters, spacing, t, c_b as asked for, also where there is no report.
+    pub cell: Cell,
+    /// Seconds of each repeat of a timed cell; the report's is their median.
+    pub samples: Vec<f64>,
+    /// All about the mesh.
+    pub report: Option<Report>,
+}
+
+/// What a cell asks for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cell {
+    /// Gallery name or file.
+    pub domain: String,
+    /// Name in `MESHERS`.
+    pub mesher: String,
+    /// Parameters that differ from the defaults.
+    pub params: serde_json::Map<String, serde_json::Value>,
+    /// Spacing before cap and limiting.
+    pub spacing: String,
+    /// Nominal t.
+    pub t: f64,
+    /// Biting constant.
+    pub c_b: f64,
+    /// Seed.
+    pub seed: u64,
+    /// Whether it runs alone and repeated.
+    pub timed: bool,
+}
