@@ -1,3 +1,5 @@
 //! Plans (TOML), the runner and the rows it leaves.
 
+pub mod machine;
+pub mod plan;
 pub mod record;

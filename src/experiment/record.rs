@@ -77,6 +77,8 @@ pub struct Report {
     pub size_efficiency: f64,
     /// asin(1/2 − t_effective) in degrees, 0 for t ≥ 1/2: Theorem 6.8.
     pub min_angle_bound_deg: f64,
+    /// A hash of the mesh's points and triangles, bit by bit: equal meshes have equal fingerprints.
+    pub fingerprint: String,
     /// Counts and angles.
     #[serde(flatten)]
     pub statistics: Statistics,
@@ -121,8 +123,10 @@ pub struct Row {
     pub estimated_triangles: f64,
     /// Domain, mesher, parameters, spacing, t, c_b as asked for, also where there is no report.
     pub cell: Cell,
-    /// Seconds of each repeat of a timed cell; the report's is their median.
+    /// Seconds of each repeat of a timed cell; the report's total is their median.
     pub samples: Vec<f64>,
+    /// The key of the cell whose mesh this row reports too: limiting changes nothing in either and all else is equal.
+    pub same_as: Option<String>,
     /// All about the mesh.
     pub report: Option<Report>,
 }
@@ -144,6 +148,8 @@ pub struct Cell {
     pub c_b: f64,
     /// Seed.
     pub seed: u64,
+    /// Whether the spacing is capped by lfs.
+    pub lfs_cap: bool,
     /// Whether it runs alone and repeated.
     pub timed: bool,
 }
