@@ -9,3 +9,7 @@ pub const CERTIFICATE: f64 = 1e-9;
 /// On uniform spacing every front vertex lies on up to six circles at once; erring towards "not covered" keeps such
 /// vertices, and a hundredth of [`CERTIFICATE`] can never make the certificate fail.
 pub const COVERED: f64 = 1e-11;
+
+/// Spacing: the smallest target edge length a mesher takes, relative to the largest coordinate. Below it, points one
+/// edge apart differ in their last ten bits only, and intersections of circles mean nothing.
+pub const RESOLUTION: f64 = 1.0 / (1u64 << 42) as f64;

@@ -6,16 +6,55 @@ use crate::spacing::Spacing;
 use std::time::{Duration, Instant};
 
 pub mod biting;
+mod budget;
 
-/// Limits that end in [`MeshError::Budget`], never in a hang.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Budget {
-    /// Most vertices a mesh may have.
-    pub max_vertices: Option<usize>,
-    /// Most seconds a mesher may take.
-    pub max_seconds: Option<f64>,
-    /// Most memory of the process, in bytes.
-    pub max_memory: Option<u64>,
+pub use budget::Budget;
+use budget::Monitor;
+
+/// One mesher of the suite. The command line, legends, conformance tests and docs iterate [`MESHERS`]; nobody types a
+/// mesher's name a second time.
+pub struct Entry {
+    /// Name on the command line and in rows.
+    pub name: &'static str,
+    /// One line for `list`.
+    pub summary: &'static str,
+    /// The mesher's own parameters.
+    pub parameters: &'static [Parameter],
+    /// Claims of the certificate's paper checks that the method guarantees under their hypotheses; the structural
+    /// checks are guaranteed for all.
+    pub guarantees: &'static [&'static str],
+    /// The mesher with the given parameters, the rest at their defaults; the error names the parameter.
+    pub make: fn(&serde_json::Map<String, serde_json::Value>) -> Result<Box<dyn Mesher>, String>,
+}
+
+/// A parameter of a mesher, as `--param name=value` sets it.
+pub struct Parameter {
+    /// Field of the mesher's struct.
+    pub name: &'static str,
+    /// Values it takes.
+    pub values: &'static str,
+    /// Value where none is given.
+    pub default: &'static str,
+    /// What it does, and where it comes from.
+    pub help: &'static str,
+}
+
+/// Every mesher there is.
+pub static MESHERS: &[Entry] = &[biting::ENTRY];
+
+/// The mesher called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    MESHERS.iter().find(|entry| entry.name == name)
+}
+
+/// A mesher's struct from its parameters by serde, for [`Entry::make`].
+fn from_parameters<M: Mesher + serde::de::DeserializeOwned + 'static>(
+    parameters: &serde_json::Map<String, serde_json::Value>,
+) -> Result<Box<dyn Mesher>, String> {
+    let value = serde_json::Value::Object(parameters.clone());
+    serde_json::from_value::<M>(value)
+        .map(|mesher| Box::new(mesher) as Box<dyn Mesher>)
+        .map_err(|error| error.to_string())
 }
 
 /// What is asked of a mesher besides domain and spacing.

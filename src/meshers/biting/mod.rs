@@ -1,1 +1,101 @@
-//! Biting (§5.1).
+//! Biting: an advancing front that packs circles instead of building elements (§5.1).
+//!
+//! # Idea
+//! Put a point on the front, remove ("bite away") the circle of radius c_b f around it from what is left of the domain,
+//! repeat until nothing is left. No later point falls into an earlier circle, so the points are well spaced; every
+//! point of the domain is in some circle, so there are no gaps; and the Delaunay triangulation of such points is well
+//! shaped.
+//!
+//! # Steps
+//! 1. the control spacing is prepared before ([`crate::spacing`]);
+//! 2. the initial front is the boundary of the domain ([`front::Front::new`]);
+//! 3. [`boundary::vertex_protection`] bites every input vertex;
+//! 4. [`boundary::edge_protection`] bites along the input segments until they are covered;
+//! 5. [`interior::interior_biting`] bites at front vertices until the front is empty;
+//! 6. [`triangulate`] makes the constrained Delaunay triangulation of the centres.
+//!
+//! # Guarantee
+//! With t = α c_b, each a check of the certificate: packing circles of radius c_b f / (2 + t) are disjoint (Lemma 5.4,
+//! `packing-disjoint`); every point of the domain is covered by a biting circle (Theorem 5.5, `coverage`); the
+//! smallest angle is at least asin(1/2 − t) (Theorem 6.8, `min-angle`); nearest-neighbour distances are within
+//! constants of f (Lemmas 5.7 and 5.8, `nn-vertex-*`, `nn-point-*`). What the last three need besides is in
+//! [`crate::quality`].
+//!
+//! # Cost
+//! O(1) a bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
+//! O(n log n) for the triangulation.
+//!
+//! # Deviations from the paper (and why)
+//! * The paper does not say which front vertex is bitten next: [`Order`] is a parameter.
+//! * The paper leaves open the order along the boundary: gaps are bitten at their two ends in turn.
+//! * A middle circle closes every gap, also one of length 0 where two circles touch: without it the front would have
+//!   a vertex on the boundary itself, which Lemmas 6.3 and 6.4 exclude without saying so.
+//! * The triangulation is constrained: the paper does not prove that every boundary piece is a Delaunay edge. Those that
+//!   are not are counted in [`Mesh::forced_pieces`].
+//! * Input angles under 90°, which the paper excludes, are bitten like any other: a point of one segment that a circle of
+//!   another covers already gets no circle of its own.
+//!
+//! # Reference
+//! X.-Y. Li, S.-H. Teng, A. Üngör, "Biting: Advancing Front Meets Sphere Packing".
+
+mod boundary;
+mod front;
+mod interior;
+mod order;
+
+pub use order::Order;
+
+use super::{Entry, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
+use crate::delaunay::triangulate;
+use crate::domain::Domain;
+use crate::mesh::Mesh;
+use crate::spacing::Spacing;
+use serde::{Deserialize, Serialize};
+
+/// The biting method and its parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Biting {
+    /// The order of bites. The paper leaves it open; the default is what `sweep` found best.
+    pub order: Order,
+}
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "biting",
+    summary: "advancing front that packs circles (Li, Teng, Üngör)",
+    parameters: &[Parameter {
+        name: "order",
+        values: "fifo, lifo, sharpest, flattest, equilateral, smallest, largest, random",
+        default: "equilateral",
+        help: "which front vertex is bitten next (open in §5.1; the default is what the sweep found best)",
+    }],
+    guarantees: &[
+        "packing-disjoint",
+        "coverage",
+        "min-angle",
+        "nn-vertex-lower",
+        "nn-vertex-upper",
+        "nn-point-lower",
+        "nn-point-upper",
+        "vertices-lower",
+        "vertices-upper",
+    ],
+    make: from_parameters::<Biting>,
+};
+
+impl Mesher for Biting {
+    fn mesh(
+        &self,
+        domain: &Domain,
+        spacing: &dyn Spacing,
+        request: &Request,
+        trace: &mut Trace,
+    ) -> Result<Mesh, MeshError> {
+        let mut front = front::Front::new(domain, spacing, self.order, request)?;
+        trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
+        let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;
+        let centres = trace.step("interior_biting", || interior::interior_biting(front))?;
+        trace.count("bites", centres.len() as f64);
+        Ok(trace.step("delaunay_triangulation", || triangulate(domain, centres, pieces))?)
+    }
+}

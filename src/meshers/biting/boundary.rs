@@ -1,0 +1,192 @@
+//! Boundary protection (§5.1 steps 3 and 4, §6.2): bites at the input vertices, then along the input segments.
+
+use super::front::Front;
+use crate::geometry::near::{Disc, Near};
+use crate::geometry::{DVec2, tolerance};
+use crate::mesh::Piece;
+use crate::meshers::MeshError;
+use std::collections::VecDeque;
+
+/// Bites all input vertices.
+pub(super) fn vertex_protection(front: &mut Front) -> Result<(), MeshError> {
+    front.domain.vertices().iter().try_for_each(|&centre| {
+        let radius = front.radius_at(centre)?;
+        front.bite_boundary(Disc { centre, radius }).map(|_| ())
+    })
+}
+
+/// Bites along the input segments until every point of them is covered, and returns the pieces the centres cut them into.
+///
+/// The uncovered gaps of all segments take turns, and a gap is bitten at its two ends in turn, so that the boundary is
+/// eaten in layers from the vertices inward. Every point is tested against all circles bitten so far, those of other
+/// segments too.
+pub(super) fn edge_protection(front: &mut Front) -> Result<Vec<Piece>, MeshError> {
+    let segments = 0..front.domain.segments().len();
+    let mut cuts = vec![Vec::new(); segments.len()];
+    let mut gaps: VecDeque<Gap> = segments.map(|segment| Gap::whole(front, segment)).collect();
+    while let Some(gap) = gaps.pop_front() {
+        let Some((gap, circle)) = gap.trimmed(front)? else {
+            continue;
+        };
+        let (position, disc) = gap.next_bite(front, circle, &mut gaps)?;
+        cuts[gap.segment].push((gap.along_segment(position), front.bite_boundary(disc)?));
+        gaps.extend(gap.without(position, disc.radius));
+    }
+    Ok(pieces(front, cuts))
+}
+
+/// A part of a segment that may be uncovered, seen from the end at which it is bitten next.
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    segment: usize,
+    /// The segment's end nearer to `low`, and the unit vector from it to the other end.
+    start: DVec2,
+    direction: DVec2,
+    length: f64,
+    /// Whether `start` is the segment's second vertex.
+    reversed: bool,
+    /// The part, by distance from `start`: its end q₁ at which it is bitten, and its far end.
+    low: f64,
+    high: f64,
+}
+
+impl Gap {
+    fn whole(front: &Front, segment: usize) -> Self {
+        let [start, end] = front.domain.ends(segment);
+        let length = start.distance(end);
+        Self {
+            segment,
+            start,
+            direction: (end - start) / length,
+            length,
+            reversed: false,
+            low: 0.0,
+            high: length,
+        }
+    }
+
+    /// The same gap seen from its other end.
+    fn turned(self) -> Self {
+        Self {
+            start: self.start + self.direction * self.length,
+            direction: -self.direction,
+            reversed: !self.reversed,
+            low: self.length - self.high,
+            high: self.length - self.low,
+            ..self
+        }
+    }
+
+    fn circle_at(&self, front: &Front, position: f64) -> Result<Disc, MeshError> {
+        let centre = self.start + self.direction * position;
+        Ok(Disc {
+            centre,
+            radius: front.radius_at(centre)?,
+        })
+    }
+
+    /// `position` as distance from the segment's first vertex.
+    fn along_segment(&self, position: f64) -> f64 {
+        if self.reversed {
+            self.length - position
+        } else {
+            position
+        }
+    }
+
+    /// Where the segment enters and leaves a circle near `circle`, shrunk by [`tolerance::COVERED`].
+    fn chord(&self, circle: Disc, near: &Near) -> Option<(f64, f64)> {
+        let to_centre = circle.centre + near.offset - self.start;
+        let (along, across) = (to_centre.dot(self.direction), to_centre.perp_dot(self.direction));
+        let radius = near.radius * (1.0 - tolerance::COVERED);
+        let half_squared = radius * radius - across * across;
+        (half_squared > 0.0).then(|| (along - half_squared.sqrt(), along + half_squared.sqrt()))
+    }
+
+    /// The gap with its low end q₁ moved out of the circles that cover it, and the biting circle there; none where
+    /// nothing is left of it.
+    fn trimmed(mut self, front: &mut Front) -> Result<Option<(Self, Disc)>, MeshError> {
+        while self.low <= self.high {
+            let circle = self.circle_at(front, self.low)?;
+            let exits = front
+                .covering(circle)
+                .iter()
+                .filter_map(|near| self.chord(circle, near))
+                .map(|(_, exit)| exit);
+            let exit = exits.fold(self.low, f64::max);
+            if exit == self.low {
+                return Ok(Some((self, circle)));
+            }
+            self.low = exit;
+        }
+        Ok(None)
+    }
+
+    /// Step 4: the next bite of an uncovered gap, as its position and circle, given the circle at q₁.
+    ///
+    /// Let q₂ be the next covered point of the segment. Where the circle at q₁ does not reach it, bite at q₁; else,
+    /// where the circle at q₂ does not reach q₁, bite at q₂; else bite at the middle of q₁ q₂. If the circle that
+    /// covers q₂ ends within the gap, the part behind it is queued as a gap of its own.
+    fn next_bite(&self, front: &mut Front, at_low: Disc, gaps: &mut VecDeque<Gap>) -> Result<(f64, Disc), MeshError> {
+        let (far, behind) = self.far_side(front, at_low);
+        if far - self.low > at_low.radius {
+            return Ok((self.low, at_low));
+        }
+        if behind < self.high {
+            gaps.push_back(Self { low: behind, ..*self });
+        }
+        let at_far = self.circle_at(front, far)?;
+        if far - self.low > at_far.radius {
+            return Ok((far, at_far));
+        }
+        let middle = 0.5 * (self.low + far);
+        Ok((middle, self.circle_at(front, middle)?))
+    }
+
+    /// q₂, the next covered point behind the low end as far as the circle there can tell, and where the circle that
+    /// covers it is left again.
+    fn far_side(&self, front: &mut Front, at_low: Disc) -> (f64, f64) {
+        let chords = front.meeting(at_low).iter().filter_map(|near| self.chord(at_low, near));
+        chords
+            .filter(|&(entry, _)| self.low <= entry && entry < self.high)
+            .fold((self.high, self.high), |nearest, chord| {
+                if chord.0 < nearest.0 { chord } else { nearest }
+            })
+    }
+
+    /// What a bite leaves of the gap, to be seen from the other end next.
+    fn without(self, position: f64, radius: f64) -> impl Iterator<Item = Self> {
+        let before = Self {
+            high: position - radius,
+            ..self
+        };
+        let after = Self {
+            low: position + radius,
+            ..self
+        };
+        [before, after]
+            .into_iter()
+            .filter(|part| part.low <= part.high)
+            .map(Self::turned)
+    }
+}
+
+/// Chains of mesh edges along each segment, from the positions of the centres on it.
+fn pieces(front: &Front, cuts: Vec<Vec<(f64, u32)>>) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for (segment, mut cuts) in cuts.into_iter().enumerate() {
+        cuts.sort_by(|first, second| first.0.total_cmp(&second.0));
+        let ends = front.domain.segments()[segment];
+        let chain = cuts.into_iter().map(|(_, id)| id).chain([ends.b as u32]);
+        let mut before = ends.a as u32;
+        for next in chain {
+            pieces.push(Piece {
+                a: before,
+                b: next,
+                segment: segment as u32,
+            });
+            before = next;
+        }
+    }
+    pieces
+}

@@ -1,0 +1,312 @@
+//! The front: what biting has left uncovered, as arcs of biting circles with their vertices.
+//!
+//! # Idea
+//! The front is the boundary of what no biting circle covers yet. Once the input boundary is bitten it consists of arcs
+//! of biting circles only, and two neighbouring arcs meet at a front vertex. So the front is kept as its vertices, each
+//! filed under its two circles; the arcs of a circle run between the vertices filed under it. A new bite meets a
+//! bounded number of circles, all of them near and of neighbouring radius ([`DiscGrid`]); vertices filed under those
+//! and inside the bite are gone, and the points where the new circle leaves them are the new vertices, if no other
+//! circle covers them.
+//!
+//! # Cost
+//! O(1) a bite, however graded the spacing is; nothing is scanned globally or rebuilt.
+
+use super::order::{Order, Queue, Ticket};
+use crate::domain::Domain;
+use crate::geometry::near::{Disc, DiscGrid, Near};
+use crate::geometry::{DVec2, tolerance};
+use crate::meshers::{MeshError, Monitor, Request};
+use crate::spacing::Spacing;
+
+/// A point where the arcs of two biting circles meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FrontVertex {
+    pub point: DVec2,
+    /// The two circles.
+    pub discs: [u32; 2],
+    /// Their centres, relative to the point.
+    pub centres: [DVec2; 2],
+}
+
+impl FrontVertex {
+    /// Cosine of the angle under which the vertex sees its two centres; the uneaten wedge is π minus that angle.
+    pub fn cosine_at_front(&self) -> f64 {
+        cosine(self.centres[0], self.centres[1])
+    }
+
+    /// Cosine of the smallest angle of the triangle of the vertex and its two centres.
+    pub fn cosine_of_smallest_angle(&self) -> f64 {
+        let [first, second] = self.centres;
+        let across = second - first;
+        self.cosine_at_front()
+            .max(cosine(-first, across))
+            .max(cosine(-second, -across))
+    }
+}
+
+fn cosine(u: DVec2, v: DVec2) -> f64 {
+    u.dot(v) / (u.length_squared() * v.length_squared()).sqrt()
+}
+
+/// A front vertex in store: filed under two circles by two linked lists.
+#[derive(Clone, Copy, Debug)]
+struct Slot {
+    point: DVec2,
+    discs: [u32; 2],
+    /// The next vertex under each of the two circles.
+    next: [u32; 2],
+    /// Tells this vertex from others that stood here before; [`NONE`] once bitten away.
+    serial: u32,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// All biting circles so far and the front they leave.
+pub(super) struct Front<'a> {
+    pub domain: &'a Domain,
+    spacing: &'a dyn Spacing,
+    c_b: f64,
+    smallest_radius: f64,
+    /// The biting circles, in the order of bites.
+    pub bitten: DiscGrid,
+    /// How many of them are centred on the input boundary; they come first.
+    boundary_count: u32,
+    /// First front vertex filed under each circle.
+    first_vertex: Vec<u32>,
+    slots: Vec<Slot>,
+    free_slots: Vec<u32>,
+    serials: u32,
+    queue: Queue,
+    near: Vec<Near>,
+    monitor: Monitor,
+}
+
+impl<'a> Front<'a> {
+    /// The front before the first bite: the boundary of the domain.
+    pub fn new(
+        domain: &'a Domain,
+        spacing: &'a dyn Spacing,
+        order: Order,
+        request: &Request,
+    ) -> Result<Self, MeshError> {
+        let t = request.c_b * spacing.lipschitz();
+        if !(t < 1.0) {
+            return Err(MeshError::Declined(format!(
+                "biting needs t = alpha c_b below 1, and here it is {t}; limit the spacing's gradient (--t)"
+            )));
+        }
+        let bounds = domain.bounds();
+        let largest_coordinate = bounds.min.abs().max(bounds.max.abs()).max_element();
+        Ok(Self {
+            domain,
+            spacing,
+            c_b: request.c_b,
+            smallest_radius: tolerance::RESOLUTION * largest_coordinate,
+            bitten: DiscGrid::new(t),
+            boundary_count: u32::MAX,
+            first_vertex: Vec::new(),
+            slots: Vec::new(),
+            free_slots: Vec::new(),
+            serials: 0,
+            queue: Queue::new(order, request.seed),
+            near: Vec::new(),
+            monitor: Monitor::new(&request.budget),
+        })
+    }
+
+    /// c_b f(x), refused where f breaks its promise or the coordinates cannot resolve it.
+    pub fn radius_at(&self, x: DVec2) -> Result<f64, MeshError> {
+        let value = self.spacing.at(x);
+        let radius = self.c_b * value;
+        if !(value > 0.0 && radius.is_finite()) {
+            return Err(MeshError::Spacing { value, x: x.x, y: x.y });
+        }
+        if radius < self.smallest_radius {
+            return Err(MeshError::Declined(format!(
+                "the size {radius:e} at ({}, {}) is below what coordinates of this size resolve ({:e}); \
+                 move the domain to the origin or ask for a larger size there",
+                x.x, x.y, self.smallest_radius
+            )));
+        }
+        Ok(radius)
+    }
+
+    /// Bites at a point of the input boundary. The arcs follow in [`Front::open`], once the boundary is covered.
+    pub fn bite_boundary(&mut self, disc: Disc) -> Result<u32, MeshError> {
+        self.insert(disc)
+    }
+
+    /// The bitten discs whose interior meets `disc`.
+    pub fn meeting(&mut self, disc: Disc) -> &[Near] {
+        self.bitten.meeting(disc.centre, disc.radius, &mut self.near);
+        &self.near
+    }
+
+    /// The bitten discs that cover the centre of `disc`.
+    pub fn covering(&mut self, disc: Disc) -> &[Near] {
+        self.bitten
+            .covering(disc.centre, disc.radius, tolerance::COVERED, &mut self.near);
+        &self.near
+    }
+
+    /// The front once the input boundary is covered: the vertices between boundary circles inside the domain.
+    pub fn open(&mut self) -> Result<(), MeshError> {
+        self.boundary_count = self.bitten.len() as u32;
+        for id in 0..self.boundary_count {
+            let disc = self.bitten.disc(id);
+            let mut near = std::mem::take(&mut self.near);
+            self.bitten.meeting(disc.centre, disc.radius, &mut near);
+            near.retain(|other| other.id != id);
+            let result = self.add_vertices(disc, id, &near, |other| other < id);
+            self.near = near;
+            result?;
+        }
+        Ok(())
+    }
+
+    /// Takes the next front vertex in the order of bites.
+    pub fn next_vertex(&mut self) -> Option<DVec2> {
+        while let Some(ticket) = self.queue.pop() {
+            let slot = &self.slots[ticket.slot as usize];
+            if slot.serial == ticket.serial {
+                return Some(slot.point);
+            }
+        }
+        None
+    }
+
+    /// Bites at the front vertex `x`: removes the part of the front inside the new circle and introduces its arcs.
+    pub fn bite(&mut self, x: DVec2) -> Result<(), MeshError> {
+        let disc = Disc {
+            centre: x,
+            radius: self.radius_at(x)?,
+        };
+        let mut near = std::mem::take(&mut self.near);
+        self.bitten.meeting(disc.centre, disc.radius, &mut near);
+        self.remove_vertices(disc, &near);
+        let id = self.insert(disc)?;
+        let result = self.add_vertices(disc, id, &near, |_| true);
+        self.near = near;
+        result
+    }
+
+    fn insert(&mut self, disc: Disc) -> Result<u32, MeshError> {
+        self.monitor.placed(self.bitten.len() + 1, disc.centre, disc.radius)?;
+        self.first_vertex.push(NONE);
+        Ok(self.bitten.insert(disc))
+    }
+
+    /// Removes the front vertices inside `disc`. Both circles of such a vertex meet `disc`, so both are in `near`: the
+    /// vertex leaves one list at the first visit and is freed at the second.
+    fn remove_vertices(&mut self, disc: Disc, near: &[Near]) {
+        let inside = (disc.radius * (1.0 - tolerance::COVERED)).powi(2);
+        for other in near {
+            let mut before = None;
+            let mut index = self.first_vertex[other.id as usize];
+            while index != NONE {
+                let slot = &mut self.slots[index as usize];
+                let side = usize::from(slot.discs[1] == other.id);
+                let next = slot.next[side];
+                if slot.point.distance_squared(disc.centre) < inside {
+                    if slot.serial == NONE {
+                        self.free_slots.push(index);
+                    }
+                    slot.serial = NONE;
+                    match before {
+                        None => self.first_vertex[other.id as usize] = next,
+                        Some((previous, side)) => self.slots[previous as usize].next[side] = next,
+                    }
+                } else {
+                    before = Some((index, side));
+                }
+                index = next;
+            }
+        }
+    }
+
+    /// Adds the points where the circle `id` leaves the circles `near` (those that `wanted` admits) and that neither
+    /// another circle covers nor the domain leaves out.
+    fn add_vertices(
+        &mut self,
+        disc: Disc,
+        id: u32,
+        near: &[Near],
+        wanted: impl Fn(u32) -> bool,
+    ) -> Result<(), MeshError> {
+        // The boundary is covered, so a circle that reaches across it meets a circle centred on it.
+        let near_boundary = id < self.boundary_count || near.iter().any(|other| other.id < self.boundary_count);
+        for (index, other) in near.iter().enumerate() {
+            if !wanted(other.id) {
+                continue;
+            }
+            for relative in circle_intersections(disc.radius, other) {
+                if is_covered(relative, near, index) {
+                    continue;
+                }
+                let point = disc.centre + relative;
+                if near_boundary && !self.domain.contains(point) {
+                    continue;
+                }
+                let vertex = FrontVertex {
+                    point,
+                    discs: [id, other.id],
+                    centres: [-relative, other.offset - relative],
+                };
+                self.file(&vertex)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Files a front vertex under its two circles and queues it.
+    fn file(&mut self, vertex: &FrontVertex) -> Result<(), MeshError> {
+        let serial = self.serials;
+        self.serials += 1;
+        let next = vertex.discs.map(|disc| self.first_vertex[disc as usize]);
+        let slot = Slot {
+            point: vertex.point,
+            discs: vertex.discs,
+            next,
+            serial,
+        };
+        let index = match self.free_slots.pop() {
+            Some(index) => {
+                self.slots[index as usize] = slot;
+                index
+            }
+            None => {
+                self.slots.push(slot);
+                (self.slots.len() - 1) as u32
+            }
+        };
+        vertex
+            .discs
+            .iter()
+            .for_each(|&disc| self.first_vertex[disc as usize] = index);
+        let (spacing, point) = (self.spacing, vertex.point);
+        self.queue
+            .push(Ticket { serial, slot: index }, vertex, || spacing.at(point));
+        Ok(())
+    }
+}
+
+/// The two points, relative to the centre of a circle of `radius`, where it crosses the circle `other`; the same point
+/// twice where rounding makes them touch.
+fn circle_intersections(radius: f64, other: &Near) -> [DVec2; 2] {
+    let distance = other.distance_squared.sqrt();
+    let along = (other.distance_squared + radius * radius - other.radius * other.radius) / (2.0 * distance);
+    let across = (radius * radius - along * along).max(0.0).sqrt();
+    let direction = other.offset / distance;
+    let foot = direction * along;
+    let offset = direction.perp() * across;
+    [foot - offset, foot + offset]
+}
+
+/// Whether a disc of `near` other than the one at `except` covers the point. Discs count as a little smaller than they
+/// are, so that a vertex on several circles at once is kept.
+fn is_covered(relative: DVec2, near: &[Near], except: usize) -> bool {
+    near.iter().enumerate().any(|(index, other)| {
+        let shrunk = other.radius * (1.0 - tolerance::COVERED);
+        index != except && relative.distance_squared(other.offset) < shrunk * shrunk
+    })
+}
