@@ -1,6 +1,25 @@
 //! Ω: a planar straight-line graph (PSLG, §2.1) and which of its faces are to be meshed.
 
+use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{DVec2, Rect};
+
+mod build;
+mod corners;
+mod error;
+pub mod gallery;
+mod locate;
+pub mod poly;
+mod pslg;
+mod subdivision;
+#[cfg(test)]
+mod tests;
+mod validate;
+
+pub use corners::Wedge;
+pub use error::{DomainError, Fault, FaultKind};
+pub use locate::Place;
+pub use pslg::{Fill, InputSegment, Pslg, Region, Source};
+pub use validate::faults;
 
 /// An input segment between two vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +43,17 @@ pub struct Face {
     pub inside: bool,
     /// The region attribute given by the user, 0 where none was given.
     pub region: f64,
+    /// The largest triangle area the user asked for there; carried through files.
+    pub max_area: Option<f64>,
+}
+
+impl Face {
+    /// A face that is not to be meshed.
+    pub const OUTSIDE: Self = Self {
+        inside: false,
+        region: 0.0,
+        max_area: None,
+    };
 }
 
 /// The domain to mesh: a valid PSLG. Vertices and segments that no inside face touches have been left out.
@@ -36,6 +66,11 @@ pub struct Domain {
     faces: Vec<Face>,
     bounds: Rect,
     area: f64,
+    isolated: Vec<usize>,
+    notes: Vec<String>,
+    index: SegmentIndex,
+    locator: locate::Locator,
+    corners: corners::Corners,
 }
 
 impl Domain {
@@ -86,8 +121,47 @@ impl Domain {
         self.faces[segment.left].inside != self.faces[segment.right].inside
     }
 
+    /// Vertices on no segment, each in an inside face, in order.
+    pub fn isolated(&self) -> &[usize] {
+        &self.isolated
+    }
+
+    /// What was left out or ignored when the domain was built, in sentences for the user.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// The segments indexed in space; answers are indices into [`Domain::segments`].
+    pub fn index(&self) -> &SegmentIndex {
+        &self.index
+    }
+
+    /// Where `x` lies, decided exactly.
+    pub fn place(&self, x: DVec2) -> Place {
+        self.locator.place(x, &self.segments, &self.index)
+    }
+
     /// Whether `x` lies in an inside face or on a segment, decided exactly.
-    pub fn contains(&self, _x: DVec2) -> bool {
-        unimplemented!("the domain part provides this")
+    pub fn contains(&self, x: DVec2) -> bool {
+        match self.place(x) {
+            Place::Face(face) => self.faces[face].inside,
+            Place::Segment(_) => true,
+        }
+    }
+
+    /// The face that holds `x`, decided exactly; on a segment the face on its left, or on its right if only that one is
+    /// inside.
+    pub fn face_at(&self, x: DVec2) -> usize {
+        match self.place(x) {
+            Place::Face(face) => face,
+            Place::Segment(s) => {
+                let segment = &self.segments[s];
+                if self.faces[segment.left].inside {
+                    segment.left
+                } else {
+                    segment.right
+                }
+            }
+        }
     }
 }

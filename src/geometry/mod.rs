@@ -4,6 +4,7 @@
 
 pub mod near;
 pub mod predicates;
+pub mod segments;
 pub mod tolerance;
 
 pub use glam::DVec2;

@@ -13,3 +13,14 @@ pub const COVERED: f64 = 1e-11;
 /// Spacing: the smallest target edge length a mesher takes, relative to the largest coordinate. Below it, points one
 /// edge apart differ in their last ten bits only, and intersections of circles mean nothing.
 pub const RESOLUTION: f64 = 1.0 / (1u64 << 42) as f64;
+
+/// Domain: a grid cell counts as met by every segment that comes within this share of a cell. Cell coordinates are
+/// computed to some 1e-12 of a cell, so no segment is missed; exact predicates decide within the cells met.
+pub const GRID_SLACK: f64 = 1e-6;
+
+/// Domain: an angle of at most this many radians between two segments is taken for none, as in the independent check.
+pub const NO_ANGLE: f64 = 1e-12;
+
+/// Domain: an input angle is acute when it is less than 60° by more than this many radians, so that the corners of
+/// equilateral triangles, computed to some 1e-16, are not.
+pub const ACUTE_MARGIN: f64 = 1e-9;
