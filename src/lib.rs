@@ -30,6 +30,7 @@ pub mod cli;
 pub mod delaunay;
 pub mod domain;
 pub mod experiment;
+pub mod files;
 pub mod geometry;
 pub mod mesh;
 pub mod meshers;

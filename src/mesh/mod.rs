@@ -1,5 +1,10 @@
 //! The result of a mesher: triangles over points, with the input's vertices, segments and regions still known.
 
+mod adjacency;
+pub mod files;
+
+pub use adjacency::{Adjacency, Edge, Lists, NONE};
+
 use crate::geometry::DVec2;
 
 /// A piece of an input segment that became a mesh edge.
@@ -32,4 +37,16 @@ pub struct Mesh {
     pub input_vertices: usize,
     /// Pieces that are no Delaunay edges and stand only because they were forced.
     pub forced_pieces: usize,
+}
+
+impl Mesh {
+    /// The corners of triangle `t`, in its order.
+    pub fn corners(&self, t: usize) -> [DVec2; 3] {
+        self.triangles[t].map(|k| self.points[k as usize])
+    }
+
+    /// Edges with the triangles on their sides.
+    pub fn adjacency(&self) -> Adjacency {
+        Adjacency::of(&self.triangles, self.points.len())
+    }
 }

@@ -1,0 +1,179 @@
+//! Mesh files: which formats there are, and the door to writing and reading them.
+//!
+//! | ending | writes | reads | keeps |
+//! |---|---|---|---|
+//! | `.node` | `.node` and `.ele` as Triangle defines them, counted from 0 | both; counted from 0 or 1 | markers, regions |
+//! | `.vtu` | VTK unstructured grid, ASCII | ASCII; binary is refused, saying so | markers, regions |
+//! | `.msh` | Gmsh 4.1, ASCII | 4.1 and 2.2, ASCII | segment markers as curves, regions as surfaces |
+//! | `.obj` | Wavefront, z = 0 | triangles and polygons as fans | geometry |
+//! | `.svg` | a drawing | – | – |
+//! | `.json` | every field of [`Mesh`] | the same | everything |
+//!
+//! Numbers are the shortest text that reads back to the same double. Files appear complete or not at all.
+
+mod gmsh;
+mod json;
+mod obj;
+mod scan;
+mod svg;
+mod triangle;
+mod vtu;
+
+use crate::files::write_whole;
+use crate::mesh::Mesh;
+use std::path::{Path, PathBuf};
+
+pub use json::text as json_text;
+
+/// Why a mesh file could not be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshFileError {
+    /// The file system refused.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The ending names no format.
+    #[error("{}: no mesh format has this ending; known are {known}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// Endings that would do.
+        known: String,
+    },
+    /// The text is not what the format says.
+    #[error("{}:{line}: {message}", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: usize,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+/// A file format of meshes, chosen by a file's ending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// `.node` with its `.ele` (either name stands for both).
+    Triangle,
+    /// `.vtu`.
+    Vtu,
+    /// `.msh`.
+    Gmsh,
+    /// `.obj`.
+    Obj,
+    /// `.svg`, written only.
+    Svg,
+    /// `.json`.
+    Json,
+}
+
+/// Endings and formats, in the order they are listed to users.
+const ENDINGS: [(&str, Format); 7] = [
+    ("node", Format::Triangle),
+    ("ele", Format::Triangle),
+    ("vtu", Format::Vtu),
+    ("msh", Format::Gmsh),
+    ("obj", Format::Obj),
+    ("svg", Format::Svg),
+    ("json", Format::Json),
+];
+
+impl Format {
+    /// The format that the ending of `path` names, in any case.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?;
+        ENDINGS
+            .iter()
+            .find(|(name, _)| name.eq_ignore_ascii_case(ending))
+            .map(|(_, format)| *format)
+    }
+
+    /// Whether [`read`] knows the format.
+    pub fn is_readable(self) -> bool {
+        self != Self::Svg
+    }
+}
+
+/// The format of `path` where it is among those that `allowed` lets through.
+fn format_of(path: &Path, allowed: impl Fn(Format) -> bool) -> Result<Format, MeshFileError> {
+    Format::of(path).filter(|format| allowed(*format)).ok_or_else(|| {
+        let known = ENDINGS
+            .iter()
+            .filter(|(_, format)| allowed(*format))
+            .map(|(name, _)| format!(".{name}"));
+        MeshFileError::Format {
+            path: path.to_path_buf(),
+            known: known.collect::<Vec<_>>().join(", "),
+        }
+    })
+}
+
+/// Writes `mesh` in the format that the ending of `path` names.
+///
+/// # Errors
+/// An unknown ending, or what the file system says.
+pub fn write(mesh: &Mesh, path: &Path) -> Result<(), MeshFileError> {
+    let text = match format_of(path, |_| true)? {
+        Format::Triangle => {
+            put(&path.with_extension("node"), &triangle::node_text(mesh))?;
+            return put(&path.with_extension("ele"), &triangle::ele_text(mesh));
+        }
+        Format::Vtu => vtu::text(mesh),
+        Format::Gmsh => gmsh::text(mesh),
+        Format::Obj => obj::text(mesh),
+        Format::Svg => svg::text(mesh),
+        Format::Json => json::text(mesh),
+    };
+    put(path, &text)
+}
+
+/// Reads a mesh from a file of any origin. Triangles keep their orientation; vertices no triangle uses are kept.
+///
+/// Formats other than `.json` do not say which edges lie on the input's segments: then `pieces` is empty, and the
+/// certificate finds them by the coordinates.
+///
+/// # Errors
+/// An unknown ending, what the file system says, or the first line that is not as the format defines it.
+pub fn read(path: &Path) -> Result<Mesh, MeshFileError> {
+    match format_of(path, Format::is_readable)? {
+        Format::Triangle => {
+            let (node, ele) = (path.with_extension("node"), path.with_extension("ele"));
+            let (mut mesh, base) = parse(&node, triangle::parse_node)?;
+            parse(&ele, |text| triangle::parse_ele(text, &mut mesh, base))?;
+            Ok(mesh)
+        }
+        Format::Vtu => parse(path, vtu::parse),
+        Format::Gmsh => parse(path, gmsh::parse),
+        Format::Obj => parse(path, obj::parse),
+        Format::Json | Format::Svg => parse(path, json::parse),
+    }
+}
+
+fn put(path: &Path, text: &str) -> Result<(), MeshFileError> {
+    write_whole(path, text.as_bytes()).map_err(|source| MeshFileError::Io {
+        path: path.to_path_buf(),
+        source,
+    })
+}
+
+/// Reads a file and hands its text to a parser, whose complaints get the file's name.
+fn parse<T>(path: &Path, parser: impl FnOnce(&str) -> Result<T, scan::Complaint>) -> Result<T, MeshFileError> {
+    let text = std::fs::read_to_string(path).map_err(|source| MeshFileError::Io {
+        path: path.to_path_buf(),
+        source,
+    })?;
+    parser(&text).map_err(|scan::Complaint { line, message }| MeshFileError::Syntax {
+        path: path.to_path_buf(),
+        line,
+        message,
+    })
+}
+
+#[cfg(test)]
+mod tests;
