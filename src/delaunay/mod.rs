@@ -346,3 +346,6 @@ fn every_point_used(mesh: &Mesh) -> Result<(), TriangulationError> {
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests;
