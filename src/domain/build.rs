@@ -27,7 +27,7 @@ impl Domain {
         let subdivision = Subdivision::new(&input.vertices, &input.segments, &index);
         let segments = with_faces(&input.segments, &subdivision);
         let mut classes = Classes {
-            notes: Vec::new(),
+            notes: input.notes.clone(),
             faces: vec![Face::OUTSIDE; subdivision.faces],
         };
         let mut report = Report {

@@ -6,9 +6,9 @@ use crate::geometry::{DVec2, Rect};
 mod build;
 mod corners;
 mod error;
+pub mod files;
 pub mod gallery;
 mod locate;
-pub mod poly;
 mod pslg;
 mod subdivision;
 #[cfg(test)]
@@ -17,6 +17,7 @@ mod validate;
 
 pub use corners::Wedge;
 pub use error::{DomainError, Fault, FaultKind};
+pub use files::{load, read};
 pub use locate::Place;
 pub use pslg::{Fill, InputSegment, Pslg, Region, Source};
 pub use validate::faults;

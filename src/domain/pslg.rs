@@ -49,6 +49,8 @@ pub struct Source {
     pub file: String,
     /// The number the file gives to its first vertex and segment: 0 or 1.
     pub first_number: usize,
+    /// The file that holds the vertices, where it is another one.
+    pub vertex_file: Option<String>,
     /// Line of each vertex.
     pub vertex_lines: Vec<usize>,
     /// Line of each segment.
@@ -74,6 +76,8 @@ pub struct Pslg {
     pub fill: Fill,
     /// Region points.
     pub regions: Vec<Region>,
+    /// What the reader left out, in sentences for the user.
+    pub notes: Vec<String>,
     /// Where it all came from.
     pub source: Source,
 }

@@ -54,6 +54,8 @@ impl Report<'_> {
             .max()
             .or_else(|| vertices.iter().filter_map(|&v| source.vertex_lines.get(v)).max())
             .copied();
+        let elsewhere = segments.is_empty() && source.vertex_file.is_some();
+        let line = line.filter(|_| !elsewhere);
         self.faults.push(Fault {
             kind,
             vertices,
@@ -76,10 +78,16 @@ impl Report<'_> {
 
     /// Vertex `v` as the file counts it, with its line.
     pub fn vertex(&self, v: usize) -> String {
+        let source = &self.pslg.source;
+        let place = source
+            .vertex_file
+            .as_ref()
+            .map_or_else(String::new, |file| format!(" of {file}"));
         named(
-            &format!("vertex {}", v + self.pslg.source.first_number),
-            &self.pslg.source.vertex_lines,
+            &format!("vertex {}", v + source.first_number),
+            &source.vertex_lines,
             v,
+            &place,
         )
     }
 
@@ -89,6 +97,7 @@ impl Report<'_> {
             &format!("segment {}", s + self.pslg.source.first_number),
             &self.pslg.source.segment_lines,
             s,
+            "",
         )
     }
 
@@ -282,10 +291,10 @@ impl Report<'_> {
     }
 }
 
-fn named(what: &str, lines: &[usize], i: usize) -> String {
+fn named(what: &str, lines: &[usize], i: usize, file: &str) -> String {
     lines
         .get(i)
-        .map_or_else(|| what.to_owned(), |line| format!("{what} (line {line})"))
+        .map_or_else(|| what.to_owned(), |line| format!("{what} (line {line}{file})"))
 }
 
 /// Lexicographic order of finite points.

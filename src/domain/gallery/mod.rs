@@ -1,8 +1,23 @@
-//! Named domains: every one is a valid PSLG, made without input.
+//! Named domains: drawn by rule, random by seed, and real outlines.
+//!
+//! `random-convex` and `random-simple` take parameters: `random-simple:n=40,seed=7`.
 
 use super::{Domain, DomainError, Pslg};
 
+mod outlines;
+mod random;
 mod shapes;
+
+/// How a named domain comes to be.
+#[derive(Clone, Copy)]
+enum Make {
+    /// By a rule without parameters.
+    Rule(fn() -> Pslg),
+    /// At random: from a number of vertices (with default and largest) and a seed.
+    Random(fn(usize, u64) -> Pslg, usize, usize),
+    /// From the text of a `.poly` file.
+    Outline(&'static str),
+}
 
 /// A named domain.
 #[derive(Clone, Copy)]
@@ -11,57 +26,138 @@ pub struct Entry {
     pub name: &'static str,
     /// What it shows, in a line.
     pub about: &'static str,
-    make: fn() -> Pslg,
+    make: Make,
+}
+
+impl Entry {
+    /// Whether it is a real outline.
+    pub fn is_real(&self) -> bool {
+        matches!(self.make, Make::Outline(_))
+    }
+}
+
+const fn entry(name: &'static str, about: &'static str, make: Make) -> Entry {
+    Entry { name, about, make }
 }
 
 /// Every named domain, in the order of `list`.
 pub const ENTRIES: &[Entry] = &[
-    Entry {
-        name: "unit-square",
-        about: "the unit square",
-        make: shapes::unit_square,
-    },
-    Entry {
-        name: "l-shape",
-        about: "an L, with one reflex corner",
-        make: shapes::l_shape,
-    },
-    Entry {
-        name: "plate-hole",
-        about: "a square plate with a hole of 64 sides",
-        make: shapes::plate_hole,
-    },
-    Entry {
-        name: "annulus",
-        about: "a ring of 96 sides",
-        make: shapes::annulus,
-    },
-    Entry {
-        name: "comb",
-        about: "a comb: narrow teeth and narrow gaps, all corners right",
-        make: shapes::comb,
-    },
-    Entry {
-        name: "two-arms",
-        about: "two arms close together in the plane and far apart along the domain (footnote 1)",
-        make: shapes::two_arms,
-    },
+    entry("unit-square", "the unit square", Make::Rule(shapes::unit_square)),
+    entry("l-shape", "an L, with one reflex corner", Make::Rule(shapes::l_shape)),
+    entry(
+        "plate-hole",
+        "a square plate with a hole of 64 sides",
+        Make::Rule(shapes::plate_hole),
+    ),
+    entry("annulus", "a ring of 96 sides", Make::Rule(shapes::annulus)),
+    entry(
+        "comb",
+        "narrow teeth and narrow gaps, all corners right",
+        Make::Rule(shapes::comb),
+    ),
+    entry(
+        "star",
+        "five points of 36°: acute input angles",
+        Make::Rule(shapes::star),
+    ),
+    entry("gear", "twenty tapered teeth and a bore", Make::Rule(shapes::gear)),
+    entry(
+        "two-arms",
+        "near in the plane, far along the domain (the paper's footnote 1)",
+        Make::Rule(shapes::two_arms),
+    ),
+    entry(
+        "naca0012",
+        "a box around an airfoil, from its formula",
+        Make::Rule(shapes::naca0012),
+    ),
+    entry(
+        "koch",
+        "Koch's snowflake after four steps, corners of 60° and 240°",
+        Make::Rule(shapes::koch),
+    ),
+    entry(
+        "interface",
+        "two regions, cracks, an isolated vertex",
+        Make::Rule(shapes::interface),
+    ),
+    entry(
+        "random-convex",
+        "Valtr's random convex polygon (:n=24,seed=0)",
+        Make::Random(random::convex, 24, 10_000),
+    ),
+    entry(
+        "random-simple",
+        "random points untangled (:n=40,seed=0)",
+        Make::Random(random::simple, 40, 1000),
+    ),
 ];
 
-/// The gallery domain of that name, `None` where there is none.
+/// The gallery domain that `spec` names, `None` where the gallery has none of that name.
 ///
 /// # Errors
-/// [`DomainError`] never, as long as the gallery's own test passes.
-pub fn domain(name: &str) -> Option<Result<Domain, DomainError>> {
-    pslg(name).map(Domain::new)
+/// [`DomainError::Unknown`] where its parameters are wrong.
+pub fn domain(spec: &str) -> Option<Result<Domain, DomainError>> {
+    let unknown = |message| DomainError::Unknown {
+        name: spec.to_owned(),
+        message,
+    };
+    pslg(spec).map(|made| made.map_err(unknown).and_then(Domain::new))
 }
 
-/// The PSLG of that name, `None` where there is none.
-pub fn pslg(name: &str) -> Option<Pslg> {
-    ENTRIES
-        .iter()
-        .find(|entry| entry.name == name)
-        .map(|entry| (entry.make)())
+/// The PSLG that `spec` names, `None` where the gallery has none of that name.
+///
+/// # Errors
+/// A message that says which parameter is wrong.
+pub fn pslg(spec: &str) -> Option<Result<Pslg, String>> {
+    let (name, parameters) = spec
+        .split_once(':')
+        .map_or((spec, None), |(name, rest)| (name, Some(rest)));
+    let entry = ENTRIES.iter().find(|entry| entry.name == name)?;
+    let plain = || {
+        parameters.map_or(Ok(()), |rest| {
+            Err(format!("takes no parameters, but \"{rest}\" is given"))
+        })
+    };
+    let made = match entry.make {
+        Make::Rule(make) => plain().map(|()| make()),
+        Make::Outline(text) => plain().and_then(|()| outlines::read(entry.name, text)),
+        Make::Random(make, count, largest) => {
+            random_parameters(parameters.unwrap_or(""), count, largest).map(|(count, seed)| make(count, seed))
+        }
+    };
+    Some(made.map(|mut pslg| {
+        spec.clone_into(&mut pslg.name);
+        spec.clone_into(&mut pslg.source.file);
+        pslg
+    }))
+}
+
+/// Reads `n=COUNT,seed=SEED`, both optional.
+fn random_parameters(text: &str, count: usize, largest: usize) -> Result<(usize, u64), String> {
+    let (mut count, mut seed) = (count, 0);
+    for part in text.split(',').filter(|part| !part.is_empty()) {
+        match part.split_once('=') {
+            Some(("n", value)) => {
+                count = value
+                    .parse()
+                    .ok()
+                    .filter(|count| (3..=largest).contains(count))
+                    .ok_or_else(|| format!("n={value}: give a number of vertices from 3 to {largest}"))?;
+            }
+            Some(("seed", value)) => {
+                seed = value
+                    .parse()
+                    .map_err(|_| format!("seed={value}: give a whole number from 0"))?;
+            }
+            _ => {
+                return Err(format!(
+                    "\"{part}\" is no parameter; give n=COUNT and seed=SEED, joined by a comma"
+                ));
+            }
+        }
+    }
+    Ok((count, seed))
 }
 
 #[cfg(test)]
@@ -74,6 +170,39 @@ mod tests {
             let domain = domain(entry.name).unwrap().unwrap();
             assert!(domain.area() > 0.0, "{}", entry.name);
             assert!(domain.notes().is_empty(), "{}: {:?}", entry.name, domain.notes());
+            assert_eq!(domain.name(), entry.name);
         }
+    }
+
+    #[test]
+    fn most_synthetic_entries_meet_the_papers_hypothesis() {
+        let synthetic = || ENTRIES.iter().filter(|entry| !entry.is_real());
+        let angle = |entry: &&Entry| domain(entry.name).unwrap().unwrap().smallest_input_angle_deg();
+        let met: Vec<&str> = synthetic()
+            .filter(|entry| angle(entry) >= 90.0)
+            .map(|entry| entry.name)
+            .collect();
+        assert!(3 * met.len() >= 2 * synthetic().count(), "only {met:?}");
+    }
+
+    #[test]
+    fn random_domains_follow_their_parameters() {
+        for seed in 0..8 {
+            for name in ["random-convex", "random-simple"] {
+                let spec = format!("{name}:n=30,seed={seed}");
+                let first = domain(&spec).unwrap().unwrap();
+                assert_eq!(first.vertices().len(), 30);
+                assert_eq!(first.vertices(), domain(&spec).unwrap().unwrap().vertices());
+            }
+        }
+        for bad in [
+            "random-simple:n=2",
+            "random-simple:m=4",
+            "random-convex:seed=x",
+            "koch:n=3",
+        ] {
+            assert!(domain(bad).unwrap().is_err(), "{bad}");
+        }
+        assert!(domain("no-such-domain").is_none());
     }
 }

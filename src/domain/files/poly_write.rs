@@ -1,6 +1,6 @@
-//! Triangle's `.poly` files.
+//! Writes Triangle's `.poly` files.
 
-use super::Domain;
+use crate::domain::{Domain, Place};
 use crate::geometry::DVec2;
 use std::fmt::Write;
 
@@ -80,7 +80,7 @@ impl Domain {
                     continue;
                 };
                 let point = middle + 0.5 * share * normal;
-                if self.place(point) == super::Place::Face(face) {
+                if self.place(point) == Place::Face(face) {
                     points[face] = Some(point);
                 }
             }
