@@ -1,1 +1,18 @@
 //! Figures, drawn by plotters: one function a figure, one style file.
+//!
+//! Every figure is written twice, as SVG and as PNG, from the same drawing code.
+
+mod angles;
+mod canvas;
+mod legend;
+mod orders;
+mod panel;
+mod size;
+mod style;
+mod time;
+
+pub use angles::{angle_bound_deg, smallest_angle};
+pub use canvas::ChartError;
+pub use orders::{ORDER_MEASURES, orders};
+pub use size::{Measure, SIZE_RATIO, SIZE_RATIO_LFS, Titled, against_t, efficiency, heat_map};
+pub use time::time;

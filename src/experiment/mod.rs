@@ -3,3 +3,5 @@
 pub mod machine;
 pub mod plan;
 pub mod record;
+pub mod series;
+pub mod summary;

@@ -1,0 +1,102 @@
+//! Legends: beside the data, never on it.
+
+use super::canvas::{Area, Drawn, FINE};
+use super::style::{self, INK, LABEL, Marker, SMALL};
+use plotters::prelude::{Color, DrawingBackend, PathElement, RGBColor, Rectangle, Text};
+use plotters::style::text_anchor::{HPos, VPos};
+use std::ops::Range;
+
+/// What stands before an entry's words.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Key {
+    /// A point.
+    Point(Marker),
+    /// A point on its line.
+    Series(Marker),
+    /// A line alone.
+    Line(RGBColor),
+    /// A dashed line.
+    Dashes(RGBColor),
+    /// A heading has none.
+    Heading,
+}
+
+/// One line of a legend.
+pub(super) type Entry = (Key, String);
+
+/// Height of a line in pixels.
+const STEP: i32 = 27;
+
+/// Draws `entries` down `area`, from `top` pixels.
+pub(super) fn legend<DB: DrawingBackend>(area: &Area<DB>, top: i32, entries: &[Entry]) -> Drawn {
+    for (line, (key, words)) in entries.iter().enumerate() {
+        let y = FINE * (top + STEP * line as i32);
+        let rail = vec![(4 * FINE, y), (32 * FINE, y)];
+        match key {
+            Key::Point(marker) => marker.draw(area, (18 * FINE, y))?,
+            Key::Series(marker) => {
+                area.draw(&PathElement::new(rail, style::stroke(marker.colour, FINE as u32)))?;
+                marker.draw(area, (18 * FINE, y))?;
+            }
+            Key::Line(colour) => area.draw(&PathElement::new(rail, style::stroke(*colour, 2 * FINE as u32)))?,
+            Key::Dashes(colour) => {
+                for start in [4, 15, 26] {
+                    let dash = vec![(start * FINE, y), ((start + 7) * FINE, y)];
+                    area.draw(&PathElement::new(dash, style::stroke(*colour, FINE as u32 + 1)))?;
+                }
+            }
+            Key::Heading => {
+                let look = style::text(LABEL, INK, HPos::Left, VPos::Center);
+                area.draw(&Text::new(words.clone(), (4 * FINE, y), look))?;
+                continue;
+            }
+        }
+        let look = style::text(SMALL, INK, HPos::Left, VPos::Center);
+        area.draw(&Text::new(words.clone(), (42 * FINE, y), look))?;
+    }
+    Ok(())
+}
+
+/// A colour bar down the left of `area` with numbers beside it; `ticks` are values of `range` and their words.
+pub(super) fn colour_bar<DB: DrawingBackend>(
+    area: &Area<DB>,
+    title: &str,
+    range: Range<f64>,
+    ticks: &[(f64, String)],
+    bands: usize,
+) -> Drawn {
+    let height = area.dim_in_pixel().1 as i32;
+    let (top, bottom) = (50 * FINE, height - 64 * FINE);
+    let heading = style::text(LABEL, INK, HPos::Left, VPos::Center);
+    area.draw(&Text::new(title.to_string(), (4 * FINE, top - 28 * FINE), heading))?;
+    let at = |share: f64| bottom - (share * f64::from(bottom - top)).round() as i32;
+    for band in 0..bands {
+        let (low, high) = (band as f64 / bands as f64, (band + 1) as f64 / bands as f64);
+        let colour = style::continuous((low + high) / 2.0);
+        let corners = [(4 * FINE, at(high)), (28 * FINE, at(low))];
+        area.draw(&Rectangle::new(corners, colour.filled()))?;
+    }
+    for (value, words) in ticks {
+        let y = at((value - range.start) / (range.end - range.start));
+        area.draw(&PathElement::new(
+            vec![(28 * FINE, y), (34 * FINE, y)],
+            style::stroke(INK, FINE as u32),
+        ))?;
+        let look = style::text(SMALL, INK, HPos::Left, VPos::Center);
+        area.draw(&Text::new(words.clone(), (40 * FINE, y), look))?;
+    }
+    Ok(())
+}
+
+/// Draws `entries` side by side along `area`, from `left` pixels.
+pub(super) fn legend_row<DB: DrawingBackend>(area: &Area<DB>, left: i32, entries: &[Entry]) -> Drawn {
+    let mut x = left * FINE;
+    for entry in entries {
+        let look = style::text(SMALL, INK, HPos::Left, VPos::Center);
+        let width = area.estimate_text_size(&entry.1, &look)?.0 as i32 + 70 * FINE;
+        let (_, rest) = area.split_horizontally(x);
+        legend(&rest, 16, std::slice::from_ref(entry))?;
+        x += width;
+    }
+    Ok(())
+}

@@ -1,0 +1,239 @@
+//! What rows say together: medians, quantiles, fitted slopes, and cells gathered by (t, c_b).
+//!
+//! Charts and pages take their numbers from here, so that a table and a figure cannot disagree.
+
+use crate::experiment::record::{Outcome, Report, Row};
+
+/// Input angles below this are acute, in degrees. A right angle computed from rounded coordinates may come out a few
+/// units in the last place under 90°, hence the slack.
+pub const ACUTE_BELOW_DEG: f64 = 90.0 - 1e-9;
+
+/// Whether an input angle inside the domain is under 90°, which the paper excludes.
+pub fn is_acute(report: &Report) -> bool {
+    report.smallest_input_angle_deg < ACUTE_BELOW_DEG
+}
+
+/// The `q`-quantile of `values` (0 ≤ q ≤ 1), linear between neighbours; absent for no values. NaN sorts last.
+pub fn quantile(mut values: Vec<f64>, q: f64) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let last = values.len().checked_sub(1)?;
+    let place = q.clamp(0.0, 1.0) * last as f64;
+    let below = values[place.floor() as usize];
+    let above = values[place.ceil() as usize];
+    Some(below + (above - below) * place.fract())
+}
+
+/// The middle value, the mean of the two middle ones for an even count; absent for no values.
+pub fn median(values: Vec<f64>) -> Option<f64> {
+    quantile(values, 0.5)
+}
+
+/// y = slope · x + intercept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// dy / dx.
+    pub slope: f64,
+    /// y at x = 0.
+    pub intercept: f64,
+}
+
+/// The least-squares line through `points`; absent unless two of them differ in x.
+pub fn fit_line(points: &[(f64, f64)]) -> Option<Line> {
+    let count = points.len() as f64;
+    let mean_x = points.iter().map(|p| p.0).sum::<f64>() / count;
+    let mean_y = points.iter().map(|p| p.1).sum::<f64>() / count;
+    let spread: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
+    let shared: f64 = points.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum();
+    (spread > 0.0).then(|| Line {
+        slope: shared / spread,
+        intercept: mean_y - shared / spread * mean_x,
+    })
+}
+
+/// The different values of `values`, ascending.
+pub fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut all: Vec<f64> = values.collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
+/// The different texts of `texts`, in the order in which they first appear.
+pub fn first_seen<'a>(texts: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut seen = Vec::new();
+    for text in texts {
+        if !seen.contains(&text) {
+            seen.push(text);
+        }
+    }
+    seen
+}
+
+/// The report of a row that was measured.
+pub fn measured(row: &Row) -> Option<&Report> {
+    row.report.as_ref().filter(|_| row.outcome == Outcome::Measured)
+}
+
+/// A mesher's parameter as text, from the report (all parameters) or else the cell (those that differ from defaults).
+pub fn parameter<'a>(row: &'a Row, name: &str) -> Option<&'a str> {
+    let reported = row.report.as_ref().and_then(|report| report.params.get(name));
+    reported.or_else(|| row.cell.params.get(name))?.as_str()
+}
+
+/// The kind of a spacing: what stands before the first colon or bracket, such as `lfs`, `expr` or `min`.
+pub fn family(spacing: &str) -> &str {
+    spacing.split([':', '(']).next().unwrap_or(spacing)
+}
+
+/// Splits rows by the family of their spacing, in the order in which the families first appear. Each comes with a
+/// title: the spacing itself where all are the same, else its family.
+pub fn by_spacing<'a>(rows: &[&'a Row]) -> Vec<(String, Vec<&'a Row>)> {
+    let families = first_seen(rows.iter().map(|row| family(&row.cell.spacing)));
+    let split = families.into_iter().map(|name| {
+        let own: Vec<&Row> = rows
+            .iter()
+            .copied()
+            .filter(|row| family(&row.cell.spacing) == name)
+            .collect();
+        let specs = first_seen(own.iter().map(|row| row.cell.spacing.as_str()));
+        let title = if specs.len() == 1 {
+            specs[0].to_string()
+        } else {
+            format!("{name} (one a domain)")
+        };
+        (title, own)
+    });
+    split.collect()
+}
+
+/// Rows over t × c_b.
+#[derive(Clone, Debug)]
+pub struct Grid<'a> {
+    /// Nominal t, ascending.
+    pub ts: Vec<f64>,
+    /// Biting constants, ascending.
+    pub c_bs: Vec<f64>,
+    /// The rows themselves.
+    pub rows: Vec<&'a Row>,
+}
+
+impl<'a> Grid<'a> {
+    /// Gathers `rows`, measured or not.
+    pub fn of(rows: impl IntoIterator<Item = &'a Row>) -> Self {
+        let rows: Vec<&Row> = rows.into_iter().collect();
+        Self {
+            ts: distinct(rows.iter().map(|row| row.cell.t)),
+            c_bs: distinct(rows.iter().map(|row| row.cell.c_b)),
+            rows,
+        }
+    }
+
+    /// Every measured report with its row, in row order.
+    pub fn reports(&self) -> impl Iterator<Item = (&'a Row, &'a Report)> {
+        self.rows.iter().filter_map(|row| Some((*row, measured(row)?)))
+    }
+
+    /// The rows asked for at (t, c_b).
+    pub fn at(&self, t: f64, c_b: f64) -> Vec<&'a Row> {
+        let here = |row: &&Row| row.cell.t == t && row.cell.c_b == c_b;
+        self.rows.iter().copied().filter(here).collect()
+    }
+
+    /// The median of `value` over the reports at (t, c_b).
+    pub fn median(&self, t: f64, c_b: f64, value: impl Fn(&Report) -> f64) -> Option<f64> {
+        median(self.at(t, c_b).into_iter().filter_map(measured).map(value).collect())
+    }
+
+    /// One summary for each (t, c_b) of which every row was measured: a pair that lost its large domains would look
+    /// better or worse than it is. Domains with acute angles are left out, unless there are no others.
+    pub fn pairs(&self) -> Vec<Pair> {
+        let acute = |row: &Row| {
+            let same = |(other, report): (&Row, &Report)| other.cell.domain == row.cell.domain && is_acute(report);
+            self.reports().any(same)
+        };
+        let plain = Self::of(self.rows.iter().copied().filter(|row| !acute(row)));
+        let chosen = if plain.rows.is_empty() { self.clone() } else { plain };
+        let all = chosen.ts.iter().flat_map(|t| chosen.c_bs.iter().map(|c_b| (*t, *c_b)));
+        all.filter_map(|(t, c_b)| chosen.pair(t, c_b)).collect()
+    }
+
+    fn pair(&self, t: f64, c_b: f64) -> Option<Pair> {
+        let rows = self.at(t, c_b);
+        let reports: Vec<&Report> = rows.iter().filter_map(|row| measured(row)).collect();
+        let angles = reports.iter().filter_map(|report| report.statistics.min_angle_free_deg);
+        let complete = !rows.is_empty() && reports.len() == rows.len();
+        complete.then_some(Pair {
+            t,
+            c_b,
+            smallest_angle_deg: quantile(angles.collect(), 0.0)?,
+            size_ratio_lfs: median(reports.iter().map(|report| report.size_ratio_lfs).collect())?,
+            domains: rows.len(),
+        })
+    }
+}
+
+/// What one (t, c_b) gives over all its domains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// Nominal t.
+    pub t: f64,
+    /// Biting constant.
+    pub c_b: f64,
+    /// Smallest `min_angle_free_deg` over the domains.
+    pub smallest_angle_deg: f64,
+    /// Median of triangles / ∫ dA / lfs² over the domains.
+    pub size_ratio_lfs: f64,
+    /// How many domains.
+    pub domains: usize,
+}
+
+/// The pairs no other pair beats in both smallest angle and size, from few triangles to many.
+pub fn frontier(pairs: &[Pair]) -> Vec<Pair> {
+    let mut sorted = pairs.to_vec();
+    sorted.sort_by(|a, b| {
+        let by_size = a.size_ratio_lfs.total_cmp(&b.size_ratio_lfs);
+        by_size.then(b.smallest_angle_deg.total_cmp(&a.smallest_angle_deg))
+    });
+    let mut best = f64::NEG_INFINITY;
+    sorted.retain(|pair| {
+        let wins = pair.smallest_angle_deg > best;
+        best = best.max(pair.smallest_angle_deg);
+        wins
+    });
+    sorted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_by_hand() {
+        assert_eq!(median(vec![]), None);
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), Some(2.5));
+        assert_eq!(quantile(vec![10.0, 0.0], 0.25), Some(2.5));
+        assert_eq!(quantile(vec![10.0, 0.0], 7.0), Some(10.0));
+    }
+
+    #[test]
+    fn a_line_by_hand() {
+        // Residuals of (0,0), (1,3), (2,3) against 1.5 x + 0.5 are −0.5, 1, −0.5: they sum to 0 and are orthogonal to x.
+        let line = fit_line(&[(0.0, 0.0), (1.0, 3.0), (2.0, 3.0)]).unwrap();
+        assert_eq!(
+            line,
+            Line {
+                slope: 1.5,
+                intercept: 0.5
+            }
+        );
+        assert_eq!(fit_line(&[(1.0, 0.0), (1.0, 3.0)]), None);
+        assert_eq!(fit_line(&[]), None);
+    }
+
+    #[test]
+    fn distinct_values_and_texts() {
+        assert_eq!(distinct([0.5, 0.1, 0.5].into_iter()), [0.1, 0.5]);
+        assert_eq!(first_seen(["b", "a", "b"].into_iter()), ["b", "a"]);
+    }
+}

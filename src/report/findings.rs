@@ -1,0 +1,199 @@
+//! What the rows answer, as numbers; the page only sets them in words.
+
+use crate::experiment::record::{Outcome, Report, Row};
+use crate::experiment::series::{OrderGroup, order_groups};
+use crate::experiment::summary::{Grid, Pair, by_spacing, first_seen, is_acute, measured, median, quantile};
+
+/// How cells ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Tally {
+    pub(super) cells: usize,
+    pub(super) measured: usize,
+    pub(super) skipped: usize,
+    pub(super) declined: usize,
+    pub(super) failed: usize,
+}
+
+/// Counts outcomes.
+pub(super) fn tally<'a>(rows: impl IntoIterator<Item = &'a Row>) -> Tally {
+    let mut tally = Tally::default();
+    for row in rows {
+        tally.cells += 1;
+        match row.outcome {
+            Outcome::Measured => tally.measured += 1,
+            Outcome::Skipped => tally.skipped += 1,
+            Outcome::Declined => tally.declined += 1,
+            Outcome::Failed => tally.failed += 1,
+        }
+    }
+    tally
+}
+
+/// Least and median of some numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spread {
+    pub(super) count: usize,
+    pub(super) least: f64,
+    pub(super) median: f64,
+    pub(super) most: f64,
+}
+
+/// Least, median and most of `values`; absent for none.
+pub(super) fn spread(values: Vec<f64>) -> Option<Spread> {
+    Some(Spread {
+        count: values.len(),
+        least: quantile(values.clone(), 0.0)?,
+        most: quantile(values.clone(), 1.0)?,
+        median: median(values)?,
+    })
+}
+
+/// How far measured smallest angles lie above asin(1/2 − t_effective), in degrees, at one nominal t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Margin {
+    pub(super) t: f64,
+    /// Domains without input angles under 90°.
+    pub(super) plain: Option<Spread>,
+    /// The others.
+    pub(super) acute: Option<Spread>,
+}
+
+/// Smallest angle less its bound.
+fn margin_of(report: &Report) -> Option<f64> {
+    Some(report.statistics.min_angle_free_deg? - report.min_angle_bound_deg)
+}
+
+/// Margins over all measured cells with or without acute input angles.
+pub(super) fn margin(grid: &Grid, acute: bool, t: Option<f64>) -> Option<Spread> {
+    let wanted = |(row, report): &(&Row, &Report)| is_acute(report) == acute && t.is_none_or(|t| row.cell.t == t);
+    spread(
+        grid.reports()
+            .filter(wanted)
+            .filter_map(|(_, report)| margin_of(report))
+            .collect(),
+    )
+}
+
+/// One [`Margin`] for each t of the grid.
+pub(super) fn margins(grid: &Grid) -> Vec<Margin> {
+    let at = |t: &f64| Margin {
+        t: *t,
+        plain: margin(grid, false, Some(*t)),
+        acute: margin(grid, true, Some(*t)),
+    };
+    grid.ts.iter().map(at).collect()
+}
+
+/// The pair with the fewest triangles among those whose smallest angle is at least `angle_deg`.
+pub(super) fn fewest(pairs: &[Pair], angle_deg: f64) -> Option<Pair> {
+    let enough = pairs.iter().filter(|pair| pair.smallest_angle_deg >= angle_deg);
+    enough
+        .min_by(|a, b| a.size_ratio_lfs.total_cmp(&b.size_ratio_lfs))
+        .copied()
+}
+
+/// Medians of one order on one spacing.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct OrderFinding {
+    pub(super) order: String,
+    pub(super) spacing: String,
+    pub(super) asked: usize,
+    pub(super) measured: usize,
+    pub(super) smallest_deg: Option<f64>,
+    pub(super) mean_deg: Option<f64>,
+    pub(super) efficiency: Option<f64>,
+    pub(super) seconds_per_triangle: Option<f64>,
+    /// Domains on which its mean smallest angle is the largest of all orders.
+    pub(super) best_mean_on: Vec<String>,
+    /// Domains on which its smallest angle is the largest of all orders.
+    pub(super) best_smallest_on: Vec<String>,
+}
+
+/// Medians over domains for each spacing and order.
+pub(super) fn order_findings(rows: &[&Row]) -> Vec<OrderFinding> {
+    let groups = order_groups(rows);
+    let middle = |group: &OrderGroup, value: fn(&Report) -> Option<f64>| {
+        median(group.reports.iter().filter_map(|report| value(report)).collect())
+    };
+    let finding = |group: &OrderGroup| OrderFinding {
+        order: group.order.to_string(),
+        spacing: group.spacing.clone(),
+        asked: group.asked,
+        measured: group.reports.len(),
+        smallest_deg: middle(group, |report| report.statistics.min_angle_free_deg),
+        mean_deg: middle(group, |report| Some(report.statistics.mean_min_angle_deg)),
+        efficiency: middle(group, |report| Some(report.size_efficiency)),
+        seconds_per_triangle: middle(group, |report| {
+            Some(report.seconds.total / report.statistics.triangles as f64).filter(|seconds| seconds.is_finite())
+        }),
+        best_mean_on: best_on(&groups, group, |report| Some(report.statistics.mean_min_angle_deg)),
+        best_smallest_on: best_on(&groups, group, |report| report.statistics.min_angle_free_deg),
+    };
+    groups.iter().map(finding).collect()
+}
+
+/// The domains on which no order of the same spacing has a larger median `value` than `group`.
+fn best_on(groups: &[OrderGroup], group: &OrderGroup, value: fn(&Report) -> Option<f64>) -> Vec<String> {
+    let of = |group: &OrderGroup, domain: &str| {
+        let own = group.reports.iter().filter(|report| report.domain == domain);
+        median(own.filter_map(|report| value(report)).collect())
+    };
+    let rivals = || groups.iter().filter(|other| other.spacing == group.spacing);
+    let wins = |domain: &&str| {
+        let best = rivals()
+            .filter_map(|other| of(other, domain))
+            .fold(f64::NEG_INFINITY, f64::max);
+        of(group, domain).is_some_and(|own| own >= best)
+    };
+    let domains = first_seen(group.reports.iter().map(|report| report.domain.as_str()));
+    domains.into_iter().filter(wins).map(str::to_string).collect()
+}
+
+/// How often one claim of the certificate held.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct ClaimTally {
+    pub(super) claim: String,
+    pub(super) lemma: String,
+    /// Cells in which it is guaranteed, and in how many of these it held.
+    pub(super) guaranteed: (usize, usize),
+    /// Cells in which it is only measured, and in how many of these it held.
+    pub(super) measured: (usize, usize),
+}
+
+/// One tally for each claim, in the certificates' order.
+pub(super) fn claims(rows: &[Row]) -> Vec<ClaimTally> {
+    let mut tallies: Vec<ClaimTally> = Vec::new();
+    for check in rows
+        .iter()
+        .filter_map(measured)
+        .flat_map(|report| &report.certificate.checks)
+    {
+        let known = tallies.iter().position(|tally| tally.claim == check.claim);
+        let place = known.unwrap_or_else(|| {
+            tallies.push(ClaimTally {
+                claim: check.claim.clone(),
+                lemma: check.lemma.clone(),
+                guaranteed: (0, 0),
+                measured: (0, 0),
+            });
+            tallies.len() - 1
+        });
+        let tally = &mut tallies[place];
+        let counts = if check.applies {
+            &mut tally.guaranteed
+        } else {
+            &mut tally.measured
+        };
+        counts.0 += 1;
+        counts.1 += usize::from(check.holds);
+    }
+    tallies
+}
+
+/// The grid rows by spacing, `lfs` first where it is there: the sizes of the paper refer to it.
+pub(super) fn grids(rows: &[Row]) -> Vec<(String, Grid<'_>)> {
+    let own: Vec<&Row> = rows.iter().filter(|row| row.group == "grid").collect();
+    let mut split = by_spacing(&own);
+    split.sort_by_key(|(title, _)| title != "lfs");
+    split.into_iter().map(|(title, rows)| (title, Grid::of(rows))).collect()
+}
