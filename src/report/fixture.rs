@@ -50,9 +50,11 @@ pub(super) fn row(group: &str, domain: &str, spacing: &str, t: f64, c_b: f64, or
             t,
             c_b,
             seed: 0,
+            lfs_cap: true,
             timed: group == "time",
         },
         samples: Vec::new(),
+        same_as: None,
         report: None,
     }
 }
@@ -77,7 +79,7 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
         params: cell.params.clone(),
         spacing: cell.spacing.clone(),
         t: cell.t,
-        t_effective: cell.t.min(cell.c_b),
+        t_effective: cell.t,
         c_b: cell.c_b,
         alpha: cell.t / cell.c_b,
         seed: 0,
@@ -92,6 +94,7 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
         size_ratio_lfs: 2.3 / (cell.t.max(0.05) * cell.c_b),
         size_efficiency: 0.9,
         min_angle_bound_deg: bound,
+        fingerprint: String::new(),
         statistics: statistics(triangles, bound + margin),
         seconds: Seconds {
             total: seconds,
