@@ -24,3 +24,7 @@ pub const NO_ANGLE: f64 = 1e-12;
 /// Domain: an input angle is acute when it is less than 60° by more than this many radians, so that the corners of
 /// equilateral triangles, computed to some 1e-16, are not.
 pub const ACUTE_MARGIN: f64 = 1e-9;
+
+/// Short lists of the spacing: an item is kept while it comes within this share of the value that decides. Distances
+/// are computed to a few ulp; an item more, that cannot win, costs nothing but time.
+pub const SHORTLIST: f64 = 1e-12;

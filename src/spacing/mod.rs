@@ -1,6 +1,35 @@
 //! Control spacing f (§2): positive, finite, α-Lipschitz.
+//!
+//! A SPEC ([`parse`]) names a spacing; [`build`] makes of it the f a mesher sees:
+//!
+//! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`Expression`], or the [`Min`] of several;
+//! 2. capped by lfs, which gives the gns of §2.3, unless [`Options::lfs_cap`] is off;
+//! 3. limited to the Lipschitz constant [`Options::alpha`] by [`gradient_limit`] (§2.3).
+//!
+//! [`integrate`] gives ∫_Ω dA / f², which Lemma 5.10 and Theorem 5.11 measure meshes by.
 
+use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
+use std::sync::Arc;
+
+mod combine;
+mod expression;
+mod gradient;
+mod grammar;
+mod interval;
+mod lfs;
+mod parse;
+mod program;
+mod shortlist;
+#[cfg(test)]
+mod testing;
+mod uniform;
+
+pub use combine::{Min, Scaled};
+pub use expression::Expression;
+pub use lfs::Lfs;
+pub use parse::{KINDS, Spec, spec_for_size};
+pub use uniform::Uniform;
 
 /// A control spacing function f.
 pub trait Spacing: Send + Sync {
@@ -15,4 +44,175 @@ pub trait Spacing: Send + Sync {
     fn lower_bound(&self, cell: Rect) -> f64 {
         self.at(cell.centre()) - self.lipschitz() * 0.5 * cell.diagonal()
     }
+
+    /// A proved upper bound of f on the closed box: by default what the Lipschitz constant gives from the centre.
+    fn upper_bound(&self, cell: Rect) -> f64 {
+        self.at(cell.centre()) + self.lipschitz() * 0.5 * cell.diagonal()
+    }
+}
+
+/// Why there is no spacing, or no integral of it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SpacingError {
+    /// The text is no SPEC.
+    #[error("spacing `{spec}`, column {column}: {message}")]
+    Parse {
+        /// The text.
+        spec: String,
+        /// Column in characters, from 1.
+        column: usize,
+        /// What is wrong and what to write instead.
+        message: String,
+    },
+    /// A kind of spacing that does not exist.
+    #[error("spacing `{kind}` is unknown; there are {known}")]
+    UnknownKind {
+        /// What was asked for.
+        kind: String,
+        /// What there is.
+        known: String,
+    },
+    /// An option out of its range.
+    #[error("{name} is {value}: it must be {range}")]
+    Option {
+        /// The option.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        range: &'static str,
+    },
+    /// No two features of the domain are apart, so lfs is nowhere defined.
+    #[error("local feature size needs two features that are not incident; give the domain a second vertex")]
+    NoFeatures,
+    /// f is not positive, or not finite, somewhere on the domain.
+    #[error("spacing is {value} at ({x}, {y}): it must be finite and positive on the domain")]
+    NotPositive {
+        /// What it is there.
+        value: f64,
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
+}
+
+/// How [`build`] turns a SPEC into the f a mesher sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The Lipschitz constant f is limited to: t / c_b. Infinite for no limiting.
+    pub alpha: f64,
+    /// Whether f is capped by lfs, as §5 needs. Default true.
+    pub lfs_cap: bool,
+    /// f is at least this share of the largest α-Lipschitz function below the capped spacing; in (0, 1). A share k of
+    /// the spacing is 1/k² in triangles; the index grows with 1/(1 − k)². Default 0.9.
+    pub limit_factor: f64,
+}
+
+impl Options {
+    /// Defaults for given t and c_b: α = t / c_b, capped by lfs.
+    pub fn new(t: f64, c_b: f64) -> Self {
+        Self::with_alpha(t / c_b)
+    }
+
+    /// Defaults for a given α.
+    pub fn with_alpha(alpha: f64) -> Self {
+        Self {
+            alpha,
+            lfs_cap: true,
+            limit_factor: 0.9,
+        }
+    }
+
+    fn check(&self) -> Result<(), SpacingError> {
+        let alpha_is_right = self.alpha > 0.0;
+        let factor_is_right = self.limit_factor > 0.0 && self.limit_factor < 1.0;
+        if !alpha_is_right {
+            Err(SpacingError::Option {
+                name: "alpha = t / c_b",
+                value: self.alpha,
+                range: "positive",
+            })
+        } else if !factor_is_right {
+            Err(SpacingError::Option {
+                name: "limit_factor",
+                value: self.limit_factor,
+                range: "between 0 and 1",
+            })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+/// The final f, with what a row says about it.
+#[derive(Clone)]
+pub struct Prepared {
+    /// The SPEC in canonical form.
+    pub spec: String,
+    /// Whether f is nowhere above lfs.
+    pub lfs_cap: bool,
+    /// The α asked for; [`Spacing::lipschitz`] of `function` is at most this.
+    pub alpha: f64,
+    /// f.
+    pub function: Arc<dyn Spacing>,
+}
+
+impl Prepared {
+    /// t as the bounds see it: c_b times the proved Lipschitz constant.
+    pub fn t_effective(&self, c_b: f64) -> f64 {
+        c_b * self.function.lipschitz()
+    }
+}
+
+/// lfs of a domain.
+///
+/// # Errors
+/// See [`Lfs::new`].
+pub fn lfs_of(domain: &Domain) -> Result<Lfs, SpacingError> {
+    let segments: Vec<[usize; 2]> = domain.segments().iter().map(|segment| [segment.a, segment.b]).collect();
+    Lfs::new(domain.vertices(), &segments)
+}
+
+/// Makes the f of `spec` on `domain`: parsed, capped by lfs, limited.
+///
+/// # Errors
+/// Everything in [`SpacingError`].
+pub fn build(spec: &str, domain: &Domain, options: &Options) -> Result<Prepared, SpacingError> {
+    options.check()?;
+    let parsed = Spec::parse(spec)?;
+    let is_capped = options.lfs_cap || parsed.is_capped();
+    let lfs: Option<Arc<dyn Spacing>> = if is_capped {
+        Some(Arc::new(lfs_of(domain)?))
+    } else {
+        None
+    };
+    let mut parts = Vec::new();
+    collect(&parsed, domain.bounds(), &mut parts)?;
+    parts.extend(lfs);
+    let function = Min::of(parts, domain.bounds());
+    Ok(Prepared {
+        spec: parsed.to_string(),
+        lfs_cap: is_capped,
+        alpha: options.alpha,
+        function,
+    })
+}
+
+/// The parts of `spec` other than lfs.
+fn collect(spec: &Spec, bounds: Rect, parts: &mut Vec<Arc<dyn Spacing>>) -> Result<(), SpacingError> {
+    match spec {
+        Spec::Lfs => {}
+        Spec::Uniform(value) => parts.push(Arc::new(Uniform(*value))),
+        Spec::Expression(text) => {
+            let expression = Expression::new(text, bounds).map_err(|source| SpacingError::Parse {
+                spec: text.clone(),
+                column: source.column,
+                message: source.message,
+            })?;
+            parts.push(Arc::new(expression));
+        }
+        Spec::Min(specs) => specs.iter().try_for_each(|spec| collect(spec, bounds, parts))?,
+    }
+    Ok(())
 }

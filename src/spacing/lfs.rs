@@ -1,0 +1,347 @@
+//! Local feature size, exactly as Definition 2.1 says.
+//!
+//! # Idea
+//! The features are the vertices and the segments. Two are incident when they are the same, a segment and its end, or
+//! two segments with a common end. lfs(x) is the radius of the smallest disk around x that meets two features that are
+//! not incident: with features met nearest first, the first one that is not incident to an earlier one stops the disk.
+//! [`Shortlists`] hold the few features that can matter in each part of the plane, so no search is needed.
+//!
+//! # Guarantee
+//! `lfs` is 1-Lipschitz on the whole plane, and nowhere below half the smallest lfs of a vertex.
+//!
+//! # Deviations from the paper
+//! Distances are Euclidean: two arms close in the plane and far along the domain see each other (the paper's footnote
+//! names the geodesic variant).
+
+use super::shortlist::{Contest, Shortlists};
+use super::{Spacing, SpacingError};
+use crate::geometry::{DVec2, Rect};
+
+/// Distances kept on the stack; longer lists occur only while the lists are built, and at vertices of huge degree.
+const BUFFER: usize = 64;
+
+/// A vertex (both ends the same) or a segment.
+#[derive(Clone, Copy, Debug)]
+struct Feature {
+    from: DVec2,
+    along: DVec2,
+    /// 1 / |along|², 0 for a vertex.
+    inverse: f64,
+    ends: [u32; 2],
+}
+
+impl Feature {
+    #[inline]
+    fn distance_squared(&self, x: DVec2) -> f64 {
+        let offset = x - self.from;
+        let share = (offset.dot(self.along) * self.inverse).clamp(0.0, 1.0);
+        (offset - share * self.along).length_squared()
+    }
+
+    #[inline]
+    fn has_end(&self, vertex: u32) -> bool {
+        self.ends[0] == vertex || self.ends[1] == vertex
+    }
+
+    #[inline]
+    fn is_incident(&self, other: &Self) -> bool {
+        self.has_end(other.ends[0]) || self.has_end(other.ends[1])
+    }
+}
+
+#[derive(Clone, Debug)]
+struct Features(Vec<Feature>);
+
+/// lfs of a planar straight-line graph.
+#[derive(Clone, Debug)]
+pub struct Lfs {
+    features: Features,
+    lists: Shortlists,
+    smallest: f64,
+}
+
+impl Lfs {
+    /// Indexes the features of a PSLG: all `vertices`, and `segments` between two of them.
+    ///
+    /// # Errors
+    /// [`SpacingError::NoFeatures`] where no two features are apart, [`SpacingError::NotPositive`] where two coincide.
+    pub fn new(vertices: &[DVec2], segments: &[[usize; 2]]) -> Result<Self, SpacingError> {
+        let points = vertices.iter().zip(0..).map(|(&from, index)| Feature {
+            from,
+            along: DVec2::ZERO,
+            inverse: 0.0,
+            ends: [index, index],
+        });
+        let edges = segments.iter().map(|&[a, b]| {
+            let along = vertices[b] - vertices[a];
+            Feature {
+                from: vertices[a],
+                along,
+                inverse: along.length_squared().recip(),
+                ends: [a as u32, b as u32],
+            }
+        });
+        let features = Features(points.chain(edges).collect());
+        let bounds = Rect::around(vertices.iter().copied());
+        if vertices.len() < 2 {
+            return Err(SpacingError::NoFeatures);
+        }
+        // Some room outside for a mesher that looks past the boundary; beyond that a query looks at every feature.
+        let room = DVec2::splat(0.05 * bounds.diagonal());
+        let root = Rect {
+            min: bounds.min - room,
+            max: bounds.max + room,
+        };
+        let lists = Shortlists::new(&features, root);
+        let mut lfs = Self {
+            features,
+            lists,
+            smallest: 0.0,
+        };
+        let mut lowest = (f64::INFINITY, vertices[0]);
+        for &vertex in vertices {
+            let value = lfs.at(vertex);
+            if value < lowest.0 {
+                lowest = (value, vertex);
+            }
+        }
+        if lowest.0.is_infinite() {
+            return Err(SpacingError::NoFeatures);
+        }
+        if lowest.0 <= 0.0 {
+            return Err(SpacingError::NotPositive {
+                value: 0.0,
+                x: lowest.1.x,
+                y: lowest.1.y,
+            });
+        }
+        lfs.smallest = 0.5 * lowest.0;
+        Ok(lfs)
+    }
+
+    /// The largest lower bound of lfs on the whole plane: inf lfs = ½ min over vertices v of lfs(v).
+    ///
+    /// The two features of the smallest disk are nearest to each other at a vertex of one of them, and lfs at a vertex
+    /// is its distance to the nearest feature not incident to it.
+    pub fn smallest(&self) -> f64 {
+        self.smallest
+    }
+
+    /// Nodes and entries of the index.
+    pub fn index_size(&self) -> (usize, usize) {
+        self.lists.size()
+    }
+}
+
+impl Contest for Features {
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn value(&self, list: &[u32], x: DVec2) -> f64 {
+        let mut short = [0.0; BUFFER];
+        let mut long = Vec::new();
+        let distances = if list.len() <= BUFFER {
+            &mut short[..list.len()]
+        } else {
+            long.resize(list.len(), 0.0);
+            &mut long[..]
+        };
+        let mut nearest = (f64::INFINITY, 0);
+        for (distance, &item) in distances.iter_mut().zip(list) {
+            *distance = self.0[item as usize].distance_squared(x);
+            if *distance < nearest.0 {
+                nearest = (*distance, item);
+            }
+        }
+        let first = &self.0[nearest.1 as usize];
+        let apart = distances
+            .iter()
+            .zip(list)
+            .filter(|(_, item)| !self.0[**item as usize].is_incident(first));
+        let stop = apart.map(|(&distance, _)| distance).fold(f64::INFINITY, f64::min);
+        self.between_the_ends(first, list, distances, stop).sqrt()
+    }
+
+    fn least(&self, item: u32, cell: Rect) -> f64 {
+        // The distance from the centre less the radius is a little low for flat cells, and one formula for all.
+        self.0[item as usize].distance_squared(cell.centre()).sqrt() - 0.5 * cell.diagonal()
+    }
+
+    fn slope(&self) -> f64 {
+        1.0
+    }
+
+    fn short(&self) -> usize {
+        10
+    }
+
+    fn finest(&self) -> f64 {
+        0.05
+    }
+}
+
+impl Features {
+    /// The nearest feature `first` is a segment: what hangs on one of its ends may be apart from what hangs on the
+    /// other (the two ends themselves are). Returns the squared radius that meets two such, or `stop` if that is less.
+    fn between_the_ends(&self, first: &Feature, list: &[u32], distances: &[f64], stop: f64) -> f64 {
+        let mut lowest = stop;
+        if first.ends[0] == first.ends[1] {
+            return lowest;
+        }
+        let hangs_on = |end: usize| {
+            list.iter().zip(distances).filter_map(move |(&item, &distance)| {
+                let feature = &self.0[item as usize];
+                (feature.has_end(first.ends[end]) && !feature.has_end(first.ends[1 - end]))
+                    .then_some((feature, distance))
+            })
+        };
+        for (one, near) in hangs_on(0).filter(|(_, distance)| *distance < stop) {
+            for (two, far) in hangs_on(1) {
+                if near.max(far) < lowest && !one.is_incident(two) {
+                    lowest = near.max(far);
+                }
+            }
+        }
+        lowest
+    }
+}
+
+impl Spacing for Lfs {
+    fn at(&self, x: DVec2) -> f64 {
+        match self.lists.at(x) {
+            Some(list) => self.features.value(list, x),
+            None => {
+                let all: Vec<u32> = (0..self.features.len() as u32).collect();
+                self.features.value(&all, x)
+            }
+        }
+    }
+
+    fn lipschitz(&self) -> f64 {
+        1.0
+    }
+
+    fn lower_bound(&self, cell: Rect) -> f64 {
+        (self.at(cell.centre()) - 0.5 * cell.diagonal()).max(self.smallest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{gear, naive_lfs, pseudo_random_points};
+    use super::*;
+    use proptest::prelude::*;
+
+    fn square() -> (Vec<DVec2>, Vec<[usize; 2]>) {
+        (
+            vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y],
+            vec![[0, 1], [1, 2], [2, 3], [3, 0]],
+        )
+    }
+
+    fn assert_is_naive(vertices: &[DVec2], segments: &[[usize; 2]], points: &[DVec2]) {
+        let lfs = Lfs::new(vertices, segments).unwrap();
+        for &x in points {
+            let (found, expected) = (lfs.at(x), naive_lfs(vertices, segments, x));
+            assert!(
+                (found - expected).abs() <= 1e-14 * (1.0 + x.length()),
+                "lfs({x}) = {found}, naive {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_oracle_knows_the_unit_square() {
+        let (vertices, segments) = square();
+        let at = |x, y| naive_lfs(&vertices, &segments, DVec2::new(x, y));
+        assert_eq!(at(0.0, 0.0), 1.0);
+        assert_eq!(at(0.5, 0.5), 0.5);
+        assert_eq!(at(0.5, 0.0), 0.5);
+        assert_eq!(at(0.25, 0.0), 0.75);
+    }
+
+    #[test]
+    fn lfs_is_the_oracle_on_the_square() {
+        let (vertices, segments) = square();
+        let points: Vec<DVec2> = pseudo_random_points(2000)
+            .into_iter()
+            .map(|p| 3.0 * p - DVec2::ONE)
+            .collect();
+        assert_is_naive(&vertices, &segments, &points);
+        assert_is_naive(&vertices, &segments, &vertices);
+    }
+
+    #[test]
+    fn lfs_is_the_oracle_on_a_gear_and_at_its_vertices() {
+        let (vertices, segments) = gear(40);
+        let points: Vec<DVec2> = pseudo_random_points(500)
+            .into_iter()
+            .map(|p| 2.6 * p - DVec2::splat(1.3))
+            .collect();
+        assert_is_naive(&vertices, &segments, &points);
+        assert_is_naive(&vertices, &segments, &vertices);
+    }
+
+    #[test]
+    fn smallest_is_the_infimum_of_lfs() {
+        let (vertices, segments) = gear(40);
+        let lfs = Lfs::new(&vertices, &segments).unwrap();
+        let mut lowest = f64::INFINITY;
+        for (a, &v) in vertices.iter().enumerate() {
+            for (b, &w) in vertices.iter().enumerate() {
+                if a != b {
+                    lowest = lowest.min(lfs.at(0.5 * (v + w)));
+                }
+            }
+        }
+        assert!(
+            lfs.smallest() <= lowest && lowest <= lfs.smallest() * (1.0 + 1e-12),
+            "{} {lowest}",
+            lfs.smallest()
+        );
+    }
+
+    #[test]
+    fn one_vertex_is_an_error_and_two_are_not() {
+        assert_eq!(Lfs::new(&[DVec2::ZERO], &[]).err(), Some(SpacingError::NoFeatures));
+        assert_eq!(
+            Lfs::new(&[DVec2::ZERO, DVec2::X], &[[0, 1]])
+                .unwrap()
+                .at(DVec2::new(0.5, 0.0)),
+            0.5
+        );
+        assert!(matches!(
+            Lfs::new(&[DVec2::X, DVec2::X], &[]),
+            Err(SpacingError::NotPositive { .. })
+        ));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        // Any planar set of features will do, whether or not they cross.
+        #[test]
+        fn lfs_is_the_oracle_on_anything(
+            coordinates in prop::collection::vec((0.0f64..1.0, 0.0f64..1.0), 2..30),
+            pairs in prop::collection::vec((0usize..30, 0usize..30), 0..40),
+            scale in -3i32..4,
+        ) {
+            let size = 10f64.powi(scale);
+            let vertices: Vec<DVec2> = coordinates.iter().map(|&(x, y)| size * DVec2::new(x, y)).collect();
+            let count = vertices.len();
+            let mut segments: Vec<[usize; 2]> = Vec::new();
+            for (a, b) in pairs.into_iter().map(|(a, b)| (a % count, b % count)) {
+                if a != b && !segments.contains(&[a, b]) && !segments.contains(&[b, a]) {
+                    segments.push([a, b]);
+                }
+            }
+            let lfs = Lfs::new(&vertices, &segments).unwrap();
+            for p in pseudo_random_points(60) {
+                let x = size * (1.4 * p - DVec2::splat(0.2));
+                let expected = naive_lfs(&vertices, &segments, x);
+                prop_assert!((lfs.at(x) - expected).abs() <= 1e-14 * size, "lfs({x}) = {}, naive {expected}", lfs.at(x));
+            }
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! SPEC: the text that names a spacing.
+//!
+//! ```text
+//! SPEC = lfs | uniform:H | expr:EXPRESSION | min(SPEC, SPEC, …)
+//! ```
+//! Commas split `min` where no parenthesis of an expression is open.
+
+use super::SpacingError;
+use super::grammar;
+use std::fmt;
+
+/// The kinds of SPEC with their arguments, for messages and lists.
+pub const KINDS: [&str; 4] = ["lfs", "uniform:H", "expr:EXPRESSION", "min(A, B)"];
+
+/// A parsed SPEC; `Display` gives its canonical text.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Spec {
+    /// Local feature size (Definition 2.1).
+    Lfs,
+    /// f = H.
+    Uniform(f64),
+    /// f given by an expression in x and y.
+    Expression(String),
+    /// The smallest of several.
+    Min(Vec<Spec>),
+}
+
+impl fmt::Display for Spec {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Lfs => out.write_str("lfs"),
+            Self::Uniform(value) => write!(out, "uniform:{value}"),
+            Self::Expression(text) => write!(out, "expr:{text}"),
+            Self::Min(parts) => {
+                let parts: Vec<String> = parts.iter().map(ToString::to_string).collect();
+                write!(out, "min({})", parts.join(", "))
+            }
+        }
+    }
+}
+
+impl Spec {
+    /// Reads a SPEC.
+    ///
+    /// # Errors
+    /// [`SpacingError::Parse`] with the column, [`SpacingError::UnknownKind`] with the kinds there are.
+    pub fn parse(text: &str) -> Result<Self, SpacingError> {
+        Reader { whole: text }.spec(0, text.len())
+    }
+
+    /// Whether the spacing is nowhere above lfs by its own definition.
+    pub fn is_capped(&self) -> bool {
+        match self {
+            Self::Lfs => true,
+            Self::Min(parts) => parts.iter().any(Self::is_capped),
+            Self::Uniform(_) | Self::Expression(_) => false,
+        }
+    }
+}
+
+/// The SPEC whose edges are about as long as `expression` says: f = size / c_b.
+///
+/// # Errors
+/// [`SpacingError::Parse`] where `expression` is none.
+pub fn spec_for_size(expression: &str, c_b: f64) -> Result<String, SpacingError> {
+    grammar::compile(expression).map_err(|source| SpacingError::Parse {
+        spec: expression.into(),
+        column: source.column,
+        message: source.message,
+    })?;
+    Ok(format!("expr:({})/{c_b}", expression.trim()))
+}
+
+struct Reader<'a> {
+    whole: &'a str,
+}
+
+impl Reader<'_> {
+    fn error(&self, at: usize, message: impl Into<String>) -> SpacingError {
+        let column = self.whole[..at].chars().count() + 1;
+        SpacingError::Parse {
+            spec: self.whole.into(),
+            column,
+            message: message.into(),
+        }
+    }
+
+    /// The SPEC between two byte offsets.
+    fn spec(&self, from: usize, to: usize) -> Result<Spec, SpacingError> {
+        let text = &self.whole[from..to];
+        let from = from + text.len() - text.trim_start().len();
+        let text = text.trim();
+        if text == "lfs" {
+            return Ok(Spec::Lfs);
+        }
+        if let Some(rest) = text.strip_prefix("uniform:") {
+            let value: Option<f64> = rest
+                .trim()
+                .parse()
+                .ok()
+                .filter(|value: &f64| value.is_finite() && *value > 0.0);
+            let message = "a positive number expected after `uniform:`";
+            return value
+                .map(Spec::Uniform)
+                .ok_or_else(|| self.error(from + "uniform:".len(), message));
+        }
+        if let Some(rest) = text.strip_prefix("expr:") {
+            let start = from + "expr:".len();
+            return match grammar::compile(rest) {
+                Ok(_) => Ok(Spec::Expression(rest.trim().into())),
+                Err(source) => {
+                    let offset = rest
+                        .char_indices()
+                        .nth(source.column - 1)
+                        .map_or(rest.len(), |(byte, _)| byte);
+                    Err(self.error(start + offset, source.message))
+                }
+            };
+        }
+        if let Some(rest) = text
+            .strip_prefix("min")
+            .map(str::trim_start)
+            .filter(|rest| rest.starts_with('('))
+        {
+            return self.min(from + text.len() - rest.len() + 1, from + text.len());
+        }
+        Err(SpacingError::UnknownKind {
+            kind: text.into(),
+            known: KINDS.join(", "),
+        })
+    }
+
+    /// The parts of a `min(` whose inside starts at `from`, up to the `)` that must end the text.
+    fn min(&self, from: usize, to: usize) -> Result<Spec, SpacingError> {
+        let mut parts = Vec::new();
+        let mut start = from;
+        let mut open = 0;
+        for (at, symbol) in self.whole[from..to]
+            .char_indices()
+            .map(|(at, symbol)| (from + at, symbol))
+        {
+            match symbol {
+                '(' => open += 1,
+                ',' if open == 0 => {
+                    parts.push(self.spec(start, at)?);
+                    start = at + 1;
+                }
+                ')' if open == 0 && at + 1 < to => return Err(self.error(at + 1, "nothing expected after `min(…)`")),
+                ')' if open == 0 => {
+                    parts.push(self.spec(start, at)?);
+                    let enough = parts.len() > 1;
+                    return if enough {
+                        Ok(Spec::Min(parts))
+                    } else {
+                        Err(self.error(at, "`min` takes two or more"))
+                    };
+                }
+                ')' => open -= 1,
+                _ => {}
+            }
+        }
+        Err(self.error(to, "`)` expected to end `min(`"))
+    }
+}
