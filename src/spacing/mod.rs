@@ -4,9 +4,7 @@
 //!
 //! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`Expression`], or the [`Min`] of several;
 //! 2. capped by lfs, which gives the gns of §2.3, unless [`Options::lfs_cap`] is off;
-//! 3. limited to the Lipschitz constant [`Options::alpha`] by [`gradient_limit`] (§2.3).
-//!
-//! [`integrate`] gives ∫_Ω dA / f², which Lemma 5.10 and Theorem 5.11 measure meshes by.
+//! 3. limited to the Lipschitz constant [`Options::alpha`] (§2.3).
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
@@ -27,6 +25,7 @@ mod uniform;
 
 pub use combine::{Min, Scaled};
 pub use expression::Expression;
+pub use grammar::GrammarError;
 pub use lfs::Lfs;
 pub use parse::{KINDS, Spec, spec_for_size};
 pub use uniform::Uniform;
@@ -191,6 +190,12 @@ pub fn build(spec: &str, domain: &Domain, options: &Options) -> Result<Prepared,
     collect(&parsed, domain.bounds(), &mut parts)?;
     parts.extend(lfs);
     let function = Min::of(parts, domain.bounds());
+    let lipschitz = function.lipschitz();
+    let function = if options.alpha >= lipschitz {
+        function
+    } else {
+        Arc::new(Scaled::new(options.alpha / lipschitz, function))
+    };
     Ok(Prepared {
         spec: parsed.to_string(),
         lfs_cap: is_capped,
