@@ -53,7 +53,7 @@ impl Monitor {
         if vertices > most {
             return stop(format!("max_vertices = {most}"));
         }
-        if vertices % VERTICES_BETWEEN_LOOKS != 0 {
+        if !vertices.is_multiple_of(VERTICES_BETWEEN_LOOKS) {
             return Ok(());
         }
         match self.budget {

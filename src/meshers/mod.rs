@@ -11,6 +11,12 @@ mod budget;
 pub use budget::Budget;
 use budget::Monitor;
 
+/// Parameters of a mesher by name.
+pub type Parameters = serde_json::Map<String, serde_json::Value>;
+
+/// Makes a mesher from its parameters, or says which one is wrong.
+pub type Make = fn(&Parameters) -> Result<Box<dyn Mesher>, String>;
+
 /// One mesher of the suite. The command line, legends, conformance tests and docs iterate [`MESHERS`]; nobody types a
 /// mesher's name a second time.
 pub struct Entry {
@@ -24,7 +30,7 @@ pub struct Entry {
     /// checks are guaranteed for all.
     pub guarantees: &'static [&'static str],
     /// The mesher with the given parameters, the rest at their defaults; the error names the parameter.
-    pub make: fn(&serde_json::Map<String, serde_json::Value>) -> Result<Box<dyn Mesher>, String>,
+    pub make: Make,
 }
 
 /// A parameter of a mesher, as `--param name=value` sets it.
@@ -49,7 +55,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 
 /// A mesher's struct from its parameters by serde, for [`Entry::make`].
 fn from_parameters<M: Mesher + serde::de::DeserializeOwned + 'static>(
-    parameters: &serde_json::Map<String, serde_json::Value>,
+    parameters: &Parameters,
 ) -> Result<Box<dyn Mesher>, String> {
     let value = serde_json::Value::Object(parameters.clone());
     serde_json::from_value::<M>(value)

@@ -90,7 +90,7 @@ impl<'a> Front<'a> {
         request: &Request,
     ) -> Result<Self, MeshError> {
         let t = request.c_b * spacing.lipschitz();
-        if !(t < 1.0) {
+        if t.is_nan() || t >= 1.0 {
             return Err(MeshError::Declined(format!(
                 "biting needs t = alpha c_b below 1, and here it is {t}; limit the spacing's gradient (--t)"
             )));
