@@ -48,7 +48,8 @@ pub use order::Order;
 use super::{Entry, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
-use crate::mesh::Mesh;
+use crate::geometry::DVec2;
+use crate::mesh::{Mesh, Piece};
 use crate::spacing::Spacing;
 use serde::{Deserialize, Serialize};
 
@@ -83,6 +84,33 @@ pub(super) const ENTRY: Entry = Entry {
     make: from_parameters::<Biting>,
 };
 
+/// What biting leaves: well-spaced points that cover the domain, not yet triangulated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bitten {
+    /// Centres of the biting circles in the order of bites: input vertices, boundary, interior.
+    pub centres: Vec<DVec2>,
+    /// Chains of centres along the input segments.
+    pub pieces: Vec<Piece>,
+}
+
+impl Biting {
+    /// Steps 2 to 5: the centres of the biting circles, without the triangulation.
+    pub fn bite(
+        &self,
+        domain: &Domain,
+        spacing: &dyn Spacing,
+        request: &Request,
+        trace: &mut Trace,
+    ) -> Result<Bitten, MeshError> {
+        let mut front = front::Front::new(domain, spacing, self.order, request)?;
+        trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
+        let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;
+        let centres = trace.step("interior_biting", || interior::interior_biting(front))?;
+        trace.count("bites", centres.len() as f64);
+        Ok(Bitten { centres, pieces })
+    }
+}
+
 impl Mesher for Biting {
     fn mesh(
         &self,
@@ -91,11 +119,7 @@ impl Mesher for Biting {
         request: &Request,
         trace: &mut Trace,
     ) -> Result<Mesh, MeshError> {
-        let mut front = front::Front::new(domain, spacing, self.order, request)?;
-        trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
-        let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;
-        let centres = trace.step("interior_biting", || interior::interior_biting(front))?;
-        trace.count("bites", centres.len() as f64);
+        let Bitten { centres, pieces } = self.bite(domain, spacing, request, trace)?;
         Ok(trace.step("delaunay_triangulation", || triangulate(domain, centres, pieces))?)
     }
 }
