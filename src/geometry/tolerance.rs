@@ -28,3 +28,18 @@ pub const ACUTE_MARGIN: f64 = 1e-9;
 /// Short lists of the spacing: an item is kept while it comes within this share of the value that decides. Distances
 /// are computed to a few ulp; an item more, that cannot win, costs nothing but time.
 pub const SHORTLIST: f64 = 1e-12;
+/// Matching a mesh to a domain: coordinates that differ by at most this many ulp of the largest coordinate are the same
+/// vertex. Files keep doubles whole; other programs may shift a domain and back.
+pub const SAME_VERTEX_ULPS: f64 = 4.0;
+
+/// Matching a mesh to a domain: a mesh edge lies along an input segment if it leaves it by at most this share of its
+/// length (and by [`SAME_VERTEX_ULPS`]): points on a segment are rounded to an ulp, which short edges see as an angle.
+pub const ALONG_SEGMENT: f64 = 1e-9;
+
+/// Certificate: areas of triangles must sum to the domain's within this relative difference; the sum of a million
+/// rounded areas is good to about 1e-12.
+pub const AREA: f64 = 1e-9;
+
+/// Certificate: an angle between segments of less than 90° by at most this many degrees counts as 90°, so that a rotated
+/// square keeps the paper's hypothesis.
+pub const RIGHT_ANGLE_DEG: f64 = 1e-6;

@@ -1,7 +1,66 @@
 //! Judges a mesh from domain, spacing, c_b and mesh alone. Imports no mesher.
 //!
-//! [`Statistics`] are numbers; a [`Certificate`] is a list of checks, each with worst value, bound and witness.
+//! [`Statistics`] are numbers; a [`Certificate`] is a list of checks, each with worst value, bound and witness. What a
+//! mesher says of its own (pieces, input vertices) is not used: the boundary is found by coordinates.
+//!
+//! # Structural checks, guaranteed for every mesher
+//! | claim | says | worst |
+//! |---|---|---|
+//! | `positive-orientation` | every triangle is counter-clockwise, exactly | smallest signed area |
+//! | `area` | triangles' areas sum to the domain's | relative difference |
+//! | `vertices-used` | every mesh vertex is in a triangle | how many are not |
+//! | `input-vertices` | every input vertex is a mesh vertex | how many are not |
+//! | `input-segments` | every input segment is a chain of mesh edges | how many are not |
+//! | `manifold-edges` | an edge is in at most two triangles, once in each direction | most triangles at an edge |
+//! | `boundary-on-segments` | an edge of one triangle lies on an input segment | how many do not |
+//! | `constrained-delaunay` | an edge on no input segment is Delaunay, exactly | opposite angles above 180°, degrees |
+//!
+//! # The paper's bounds, with t = c_b · lipschitz()
+//! | claim | paper | says | needs |
+//! |---|---|---|---|
+//! | `packing-disjoint` | Lemma 5.4 | ‖x − y‖ ≥ c_p (f(x) + f(y)), c_p = c_b / (2 + t) | f ≤ lfs, c_b ≤ 1 |
+//! | `coverage` | Theorem 5.5 | every point of Ω is in some closed B(x, c_b f(x)) | t < 1 |
+//! | `min-angle` | Theorem 6.8 | sin θ ≥ 1/2 − t | f ≤ lfs, c_b ≤ 1, t ≤ 1/3, no angle under 90° |
+//! | `nn-vertex-lower`, `-upper` | Lemma 5.7 | c_b (1 − t) f ≤ nn ≤ 2 c_b / (1 − t) f at vertices | f ≤ lfs, c_b ≤ 1, t < 1 |
+//! | `nn-point-lower`, `-upper` | Lemma 5.8 | c_b / (2 + 2t) f ≤ nn ≤ (3 − t) c_b / (1 − t)² f elsewhere | the same |
+//! | `vertices-lower` | follows from 5.5 | vertices ≥ (1 − t)² I / (π c_b²) | t < 1 |
+//! | `vertices-upper` | follows from 5.4 | vertices, by share of packing circle, ≤ 4 (1 + t)² I / (π c_b²) | f ≤ lfs, c_b ≤ 1 |
+//!
+//! What a bound needs is [`Hypotheses`]: a check whose hypotheses fail, or that the mesher does not guarantee, is still
+//! measured, but `applies` is false. No angle under 90° means none between neighbouring segments, inside *or outside*:
+//! §5.1 assumes that the domain "does not have an acute input angle", and across a narrow notch a circle bites where its
+//! centre cannot be seen.
+//!
+//! # How coverage is decided without sampling
+//! Let U be the part of Ω outside all closed discs and let it not be empty. If all of ∂Ω (and of every inner segment) is
+//! covered, U is open and bounded by arcs of circles, each of them inside Ω and inside no other disc. So it is enough to
+//! check that each input segment is covered along its length (a union of intervals), and, for each circle, that the
+//! angular intervals inside the other discs cover all of it that lies in Ω. An arc left over cannot cross ∂Ω, since points
+//! of ∂Ω beside the crossing would be uncovered; so whether it lies in Ω is asked at one point.
+//!
+//! # Why `vertices-lower` and `vertices-upper` hold
+//! Within B(x, c_b f(x)), f ≥ (1 − t) f(x), so that disc holds at most π c_b² / (1 − t)² of I = ∫ dA / f²; discs that
+//! cover Ω hold all of it. Within B(x, c_p f(x)), f ≤ (1 + α c_p) f(x), so that disc holds at least
+//! π c_p² / (1 + α c_p)² = π c_b² / (4 (1 + t)²) of I if it lies in Ω, and disjoint discs hold at most all. A disc that sticks
+//! out counts by the share that surely lies in Ω: at an input vertex whose disc meets only the segments there, the
+//! angle inside over 2π; where it meets one boundary segment, 1/2 (a chord leaves at least the half disc on its centre's
+//! side); where it meets more, nothing.
 
+mod angle;
+mod boundary;
+mod coverage;
+mod discs;
+mod parallel;
+mod shape;
+mod spread;
+mod statistics;
+mod structure;
+mod subject;
+mod tally;
+
+use crate::domain::Domain;
+use crate::mesh::Mesh;
+use crate::spacing::Spacing;
 use serde::{Deserialize, Serialize};
 
 /// 5th, 50th and 95th percentile.
@@ -73,7 +132,13 @@ pub struct Check {
     pub broken: usize,
     /// Where the worst is, if it is somewhere.
     pub at: Option<[f64; 2]>,
+    /// Where the first few are that broke it: centroids of triangles, midpoints of edges, vertices.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub witnesses: Vec<[f64; 2]>,
 }
+
+/// Most witnesses a check lists.
+pub const WITNESSES: usize = 8;
 
 /// Every bound of the paper and every structural promise, checked on one mesh.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -84,4 +149,99 @@ pub struct Certificate {
     pub excused: usize,
     /// All checks.
     pub checks: Vec<Check>,
+}
+
+/// What the paper's bounds are checked against.
+#[derive(Clone, Copy)]
+pub struct Bounds<'a> {
+    /// f as the mesher evaluated it.
+    pub spacing: &'a dyn Spacing,
+    /// Biting constant.
+    pub c_b: f64,
+    /// Whether f ≤ lfs is known.
+    pub lfs_cap: bool,
+    /// ∫_Ω dA / f²; without it there are no bounds on the number of vertices.
+    pub integral: Option<f64>,
+    /// Relative error of `integral`, which the bounds give way by.
+    pub integral_error: f64,
+    /// Claims the mesher guarantees where their hypotheses hold.
+    pub guaranteed: &'a [&'a str],
+}
+
+/// What the paper's theorems assume, stated or not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hypotheses {
+    /// c_b times the Lipschitz constant of the spacing as evaluated.
+    pub t: f64,
+    /// Biting constant.
+    pub c_b: f64,
+    /// Whether f ≤ lfs.
+    pub lfs_cap: bool,
+    /// Smallest angle between neighbouring segments on any side, inside or out, degrees; 360 if none.
+    pub smallest_segment_angle_deg: f64,
+}
+
+impl Hypotheses {
+    /// Of a domain and bounds.
+    pub fn of(domain: &Domain, bounds: &Bounds) -> Self {
+        Self {
+            t: bounds.c_b * bounds.spacing.lipschitz(),
+            c_b: bounds.c_b,
+            lfs_cap: bounds.lfs_cap,
+            smallest_segment_angle_deg: domain.smallest_segment_angle_deg(),
+        }
+    }
+
+    /// Circles around input vertices hold no other input vertex (Lemma 5.1).
+    fn vertices_apart(&self) -> bool {
+        self.lfs_cap && self.c_b <= 1.0
+    }
+
+    /// Whether a claim follows from them for a mesh made by biting.
+    pub fn imply(&self, claim: &str) -> bool {
+        match claim {
+            "packing-disjoint" | "vertices-upper" => self.vertices_apart(),
+            "coverage" | "vertices-lower" => self.t < 1.0,
+            "min-angle" => {
+                self.vertices_apart()
+                    && self.t <= 1.0 / 3.0
+                    && self.smallest_segment_angle_deg >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
+            }
+            _ => self.vertices_apart() && self.t < 1.0,
+        }
+    }
+}
+
+/// Theorem 6.8: asin(1/2 − t) in degrees, 0 for t ≥ 1/2.
+pub fn min_angle_bound_deg(t: f64) -> f64 {
+    (0.5 - t).max(0.0).asin().to_degrees()
+}
+
+/// Statistics and certificate of a mesh of `domain`; `bounds` adds what needs a spacing.
+///
+/// The mesh may come from anywhere. The work is shared among rayon's threads; the result does not depend on them.
+pub fn judge(domain: &Domain, mesh: &Mesh, bounds: Option<&Bounds>) -> (Statistics, Certificate) {
+    let subject = subject::Subject::new(domain, mesh, bounds);
+    (statistics::measure(&subject), certificate(&subject))
+}
+
+fn certificate(subject: &subject::Subject) -> Certificate {
+    let mut checks = structure::checks(subject);
+    if let Some(sizes) = &subject.sizes {
+        checks.extend(coverage::checks(subject, sizes));
+        checks.push(angle::check(subject, sizes));
+        checks.extend(spread::checks(subject, sizes));
+    }
+    Certificate {
+        holds: checks.iter().all(|check| check.holds || !check.applies),
+        excused: subject.excused,
+        checks,
+    }
+}
+
+impl Certificate {
+    /// The check of that name.
+    pub fn check(&self, claim: &str) -> Option<&Check> {
+        self.checks.iter().find(|check| check.claim == claim)
+    }
 }

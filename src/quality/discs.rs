@@ -1,0 +1,183 @@
+//! Near-queries among discs of any radii: a static tree of bounding boxes.
+//!
+//! The judge's own, apart from the grid that biting stands on: it assumes nothing about how radii vary.
+
+use crate::geometry::{DVec2, Rect};
+
+/// Discs a leaf.
+const LEAF: usize = 8;
+/// Deepest tree: halves down to a leaf, so 2^48 discs would fit.
+const DEPTH: usize = 48;
+
+/// A disc and the index it was given under.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disc {
+    /// Centre.
+    pub centre: DVec2,
+    /// Radius; 0 makes it a point.
+    pub radius: f64,
+    /// Index among the discs given.
+    pub id: u32,
+}
+
+/// A box around the centres of some discs.
+struct Node {
+    bounds: Rect,
+    /// Largest radius within.
+    radius: f64,
+    /// The second child; the first one follows its parent.
+    second: u32,
+    /// The discs below, a range of [`DiscTree::discs`].
+    range: [u32; 2],
+}
+
+/// Discs, findable by place.
+pub struct DiscTree {
+    nodes: Vec<Node>,
+    discs: Vec<Disc>,
+}
+
+impl DiscTree {
+    /// Of discs in any order. O(n log n).
+    pub fn new(discs: impl Iterator<Item = (DVec2, f64)>) -> Self {
+        let discs: Vec<Disc> = discs
+            .zip(0..)
+            .map(|((centre, radius), id)| Disc { centre, radius, id })
+            .collect();
+        let mut tree = Self {
+            nodes: Vec::with_capacity(discs.len() / 2 + 1),
+            discs,
+        };
+        if !tree.discs.is_empty() {
+            tree.split(0, tree.discs.len());
+        }
+        tree
+    }
+
+    /// All discs, those near each other mostly next to each other.
+    pub fn discs(&self) -> &[Disc] {
+        &self.discs
+    }
+
+    fn split(&mut self, from: usize, to: usize) {
+        let discs = &mut self.discs[from..to];
+        let bounds = Rect::around(discs.iter().map(|disc| disc.centre));
+        let radius = discs.iter().map(|disc| disc.radius).fold(0.0, f64::max);
+        let node = self.nodes.len();
+        self.nodes.push(Node {
+            bounds,
+            radius,
+            second: 0,
+            range: [from as u32, to as u32],
+        });
+        if to - from <= LEAF {
+            return;
+        }
+        let (wide, middle) = (bounds.size().x >= bounds.size().y, (to - from) / 2);
+        discs.select_nth_unstable_by(middle, |u, v| {
+            let order = if wide {
+                u.centre.x.total_cmp(&v.centre.x)
+            } else {
+                u.centre.y.total_cmp(&v.centre.y)
+            };
+            order.then(u.id.cmp(&v.id))
+        });
+        self.split(from, from + middle);
+        self.nodes[node].second = self.nodes.len() as u32;
+        self.split(from + middle, to);
+    }
+
+    /// Calls `visit` with every disc that has a point in common with the closed disc around `centre`.
+    pub fn meeting(&self, centre: DVec2, radius: f64, mut visit: impl FnMut(&Disc)) {
+        let mut stack = [0u32; DEPTH];
+        let mut height = usize::from(!self.nodes.is_empty());
+        while height > 0 {
+            height -= 1;
+            let index = stack[height];
+            let node = &self.nodes[index as usize];
+            let reach = radius + node.radius;
+            let outside = (node.bounds.min - centre)
+                .max(centre - node.bounds.max)
+                .max(DVec2::ZERO);
+            if outside.length_squared() > reach * reach {
+                continue;
+            }
+            if node.second != 0 {
+                stack[height] = node.second;
+                stack[height + 1] = index + 1;
+                height += 2;
+                continue;
+            }
+            for disc in &self.discs[node.range[0] as usize..node.range[1] as usize] {
+                let reach = radius + disc.radius;
+                if disc.centre.distance_squared(centre) <= reach * reach {
+                    visit(disc);
+                }
+            }
+        }
+    }
+
+    /// Distance from `x` to the second closest centre; infinite where there are fewer than two.
+    pub fn second_nearest(&self, x: DVec2) -> f64 {
+        let (mut first, mut second) = (f64::INFINITY, f64::INFINITY);
+        let away = |bounds: Rect| (bounds.min - x).max(x - bounds.max).max(DVec2::ZERO).length_squared();
+        let mut stack = [(0u32, 0.0); DEPTH];
+        let mut height = usize::from(!self.nodes.is_empty());
+        while height > 0 {
+            height -= 1;
+            let (index, distance) = stack[height];
+            if distance >= second {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            if node.second != 0 {
+                let children = [index + 1, node.second].map(|k| (k, away(self.nodes[k as usize].bounds)));
+                let near = usize::from(children[1].1 < children[0].1);
+                stack[height] = children[1 - near];
+                stack[height + 1] = children[near];
+                height += 2;
+                continue;
+            }
+            for disc in &self.discs[node.range[0] as usize..node.range[1] as usize] {
+                let distance = disc.centre.distance_squared(x);
+                if distance < first {
+                    (first, second) = (distance, first);
+                } else if distance < second {
+                    second = distance;
+                }
+            }
+        }
+        second.sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn queries_agree_with_looking_at_all(
+            discs in prop::collection::vec((0.0f64..4.0, 0.0f64..1.0, 0.0f64..0.3), 0..60),
+            x in (-1.0f64..5.0, -1.0f64..2.0),
+            radius in 0.0f64..1.0,
+        ) {
+            let discs: Vec<_> = discs.iter().map(|&(x, y, r)| (DVec2::new(x, y), r * r)).collect();
+            let tree = DiscTree::new(discs.iter().copied());
+            let x = DVec2::new(x.0, x.1);
+            let mut found = Vec::new();
+            tree.meeting(x, radius, |disc| found.push(disc.id as usize));
+            found.sort_unstable();
+            let all: Vec<_> = (0..discs.len()).filter(|&k| discs[k].0.distance(x) <= radius + discs[k].1).collect();
+            prop_assert_eq!(found, all);
+            let mut distances: Vec<_> = discs.iter().map(|disc| disc.0.distance(x)).collect();
+            distances.sort_by(f64::total_cmp);
+            let expected = distances.get(1).copied().unwrap_or(f64::INFINITY);
+            let found = tree.second_nearest(x);
+            prop_assert!(found == expected || (found - expected).abs() < 1e-15, "{found} {expected}");
+        }
+    }
+}

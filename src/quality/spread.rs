@@ -1,0 +1,148 @@
+//! How far apart vertices are (Lemmas 5.7 and 5.8) and how many there are (§5.3).
+
+use super::boundary::NO_SEGMENT;
+use super::subject::{Sizes, Subject};
+use super::tally::{Tally, Worst};
+use super::{Check, parallel, shape};
+use crate::geometry::DVec2;
+use crate::geometry::tolerance::CERTIFICATE;
+use std::f64::consts::{PI, TAU};
+
+/// `nn-vertex-lower`, `nn-vertex-upper`, `nn-point-lower`, `nn-point-upper` and, with an integral, `vertices-lower` and
+/// `vertices-upper`.
+pub fn checks(subject: &Subject, sizes: &Sizes) -> Vec<Check> {
+    let (t, c_b) = (sizes.t(), sizes.bounds.c_b);
+    // Without t < 1 there is nothing above.
+    let upper = |bound: f64| if t < 1.0 { bound } else { f64::INFINITY };
+    let vertex = Between {
+        low: c_b * (1.0 - t).max(0.0),
+        high: upper(2.0 * c_b / (1.0 - t)),
+    };
+    let point = Between {
+        low: c_b / (2.0 + 2.0 * t),
+        high: upper((3.0 - t) * c_b / ((1.0 - t) * (1.0 - t))),
+    };
+    let points = &subject.mesh.points;
+    let at_vertices = vertex.measure(points.len(), |k| Some((sizes.nn[k] / sizes.at_vertex[k], points[k])));
+    let nn = |x: DVec2, f: f64| Some((sizes.circles.second_nearest(x) / f, x));
+    let at_midpoints = point.measure(subject.adjacency.edges().len(), |e| {
+        nn(subject.midpoint(e), sizes.at_midpoint[e])
+    });
+    let at_circumcentres = point.measure(subject.mesh.triangles.len(), |triangle| {
+        let centre = shape::circumcentre(subject.mesh.corners(triangle));
+        let is_in = centre.is_finite() && subject.domain.contains(centre);
+        if is_in {
+            nn(centre, sizes.bounds.spacing.at(centre))
+        } else {
+            None
+        }
+    });
+    let [low, high] = at_midpoints;
+    let [low_too, high_too] = at_circumcentres;
+    let mut checks = vertex
+        .checks(at_vertices, ["nn-vertex-lower", "nn-vertex-upper"], "Lemma 5.7", sizes)
+        .to_vec();
+    let at_points = [low.join(low_too), high.join(high_too)];
+    checks.extend(point.checks(at_points, ["nn-point-lower", "nn-point-upper"], "Lemma 5.8", sizes));
+    if let Some(integral) = sizes.bounds.integral {
+        checks.extend(vertex_counts(subject, sizes, integral));
+    }
+    checks
+}
+
+/// A claim that low ≤ nn / f ≤ high.
+struct Between {
+    low: f64,
+    high: f64,
+}
+
+impl Between {
+    /// The worst on either side over `count` places, some of which have no ratio.
+    fn measure(&self, count: usize, ratio: impl Fn(usize) -> Option<(f64, DVec2)> + Sync) -> [Tally; 2] {
+        let parts = parallel::map_ranges(count, |range| {
+            let (mut lower, mut upper) = (Tally::new(Worst::Smallest), Tally::new(Worst::Largest));
+            for (ratio, at) in range.filter_map(&ratio) {
+                lower.see(ratio, at, ratio < self.low * (1.0 - CERTIFICATE));
+                upper.see(ratio, at, ratio > self.high * (1.0 + CERTIFICATE));
+            }
+            (lower, upper)
+        });
+        let (lower, upper): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
+        [Tally::all(Worst::Smallest, lower), Tally::all(Worst::Largest, upper)]
+    }
+
+    fn checks(&self, [lower, upper]: [Tally; 2], claims: [&str; 2], lemma: &str, sizes: &Sizes) -> [Check; 2] {
+        [
+            lower.check(claims[0], lemma, sizes.applies(claims[0]), self.low),
+            upper.check(claims[1], lemma, sizes.applies(claims[1]), self.high),
+        ]
+    }
+}
+
+/// Both bounds on the number of vertices; the integral's error is granted.
+fn vertex_counts(subject: &Subject, sizes: &Sizes, integral: f64) -> [Check; 2] {
+    let (t, c_b) = (sizes.t(), sizes.bounds.c_b);
+    let error = sizes.bounds.integral_error;
+    let disc = PI * c_b * c_b;
+    let fewest = (1.0 - t).max(0.0).powi(2) * integral * (1.0 - error) / disc;
+    let most = 4.0 * (1.0 + t).powi(2) * integral * (1.0 + error) / disc;
+    let vertices = subject.mesh.points.len() as f64;
+    let shares = packing_shares(subject, sizes);
+    let check = |claim: &str, lemma: &str, worst: f64, bound: f64, holds: bool| Check {
+        claim: claim.to_string(),
+        lemma: lemma.to_string(),
+        applies: sizes.applies(claim),
+        worst: Some(worst),
+        bound: Some(bound),
+        holds,
+        broken: usize::from(!holds),
+        at: None,
+        witnesses: Vec::new(),
+    };
+    [
+        check(
+            "vertices-lower",
+            "from Theorem 5.5",
+            vertices,
+            fewest,
+            vertices >= fewest,
+        ),
+        check("vertices-upper", "from Lemma 5.4", shares, most, shares <= most),
+    ]
+}
+
+/// The sum over vertices of the share of the packing circle that surely lies in the domain.
+fn packing_shares(subject: &Subject, sizes: &Sizes) -> f64 {
+    let domain = subject.domain;
+    let c_p = sizes.bounds.c_b / (2.0 + sizes.t());
+    let mut input = vec![NO_SEGMENT; subject.mesh.points.len()];
+    for (v, found) in (0..).zip(&subject.boundary.vertex) {
+        if let Some(k) = found {
+            input[*k as usize] = v;
+        }
+    }
+    parallel::sum(subject.mesh.points.len(), |k| {
+        let v = input[k] as usize;
+        let (mut met, mut all_incident) = (0, true);
+        domain
+            .index()
+            .within(subject.mesh.points[k], c_p * sizes.at_vertex[k], |s, _| {
+                if domain.is_boundary(s) {
+                    let segment = domain.segments()[s];
+                    met += 1;
+                    all_incident &= segment.a == v || segment.b == v;
+                }
+            });
+        match met {
+            0 => 1.0,
+            _ if input[k] != NO_SEGMENT && all_incident => domain
+                .wedges(v)
+                .iter()
+                .filter(|wedge| wedge.inside)
+                .map(|wedge| wedge.angle / TAU)
+                .sum(),
+            1 => 0.5,
+            _ => 0.0,
+        }
+    })
+}

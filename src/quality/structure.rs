@@ -1,0 +1,157 @@
+//! Structural checks: what every mesh must be, whoever made it.
+
+use super::boundary::NO_SEGMENT;
+use super::subject::Subject;
+use super::tally::{Tally, Worst};
+use super::{Check, parallel};
+use crate::geometry::DVec2;
+use crate::geometry::predicates::{in_circle, orient2d};
+use crate::geometry::tolerance::AREA;
+use crate::mesh::Edge;
+
+/// All structural checks, in the order of the table in [`super`].
+pub fn checks(subject: &Subject) -> Vec<Check> {
+    vec![
+        positive_orientation(subject),
+        area(subject),
+        vertices_used(subject),
+        input_vertices(subject),
+        input_segments(subject),
+        manifold_edges(subject),
+        boundary_on_segments(subject),
+        constrained_delaunay(subject),
+    ]
+}
+
+fn centroid(corners: [DVec2; 3]) -> DVec2 {
+    corners.iter().sum::<DVec2>() / 3.0
+}
+
+fn positive_orientation(subject: &Subject) -> Check {
+    let mesh = subject.mesh;
+    let parts = parallel::map_ranges(mesh.triangles.len(), |range| {
+        let mut tally = Tally::new(Worst::Smallest);
+        for corners in range.map(|t| mesh.corners(t)) {
+            let twice = orient2d(corners[0], corners[1], corners[2]);
+            tally.see(0.5 * twice, centroid(corners), twice <= 0.0);
+        }
+        tally
+    });
+    Tally::all(Worst::Smallest, parts).check("positive-orientation", "", true, 0.0)
+}
+
+fn area(subject: &Subject) -> Check {
+    let (mesh, centre) = (subject.mesh, subject.domain.bounds().centre());
+    let area = 0.5
+        * parallel::sum(mesh.triangles.len(), |t| {
+            let [a, b, c] = mesh.corners(t).map(|p| p - centre);
+            (b - a).perp_dot(c - a)
+        });
+    let difference = (area / subject.domain.area() - 1.0).abs();
+    let mut tally = Tally::new(Worst::Largest);
+    tally.see(difference, centre, difference.is_nan() || difference > AREA);
+    Check {
+        at: None,
+        witnesses: Vec::new(),
+        ..tally.check("area", "", true, AREA)
+    }
+}
+
+/// A check that counts places that should not be there: the worst is how many.
+fn none_of(claim: &str, places: impl Iterator<Item = DVec2>) -> Check {
+    let mut tally = Tally::new(Worst::Largest);
+    for place in places {
+        tally.see(1.0, place, true);
+    }
+    let check = tally.check(claim, "", true, 0.0);
+    Check {
+        worst: Some(check.broken as f64),
+        ..check
+    }
+}
+
+fn vertices_used(subject: &Subject) -> Check {
+    let points = &subject.mesh.points;
+    let mut used = vec![false; points.len()];
+    for corner in subject.mesh.triangles.as_flattened() {
+        used[*corner as usize] = true;
+    }
+    none_of(
+        "vertices-used",
+        points.iter().zip(used).filter(|(_, used)| !used).map(|(p, _)| *p),
+    )
+}
+
+fn input_vertices(subject: &Subject) -> Check {
+    let pairs = subject.domain.vertices().iter().zip(&subject.boundary.vertex);
+    none_of(
+        "input-vertices",
+        pairs.filter(|(_, found)| found.is_none()).map(|(p, _)| *p),
+    )
+}
+
+fn input_segments(subject: &Subject) -> Check {
+    none_of("input-segments", subject.boundary.lost.iter().map(|(_, end)| *end))
+}
+
+fn manifold_edges(subject: &Subject) -> Check {
+    let mut tally = Tally::new(Worst::Largest);
+    for (e, edge) in subject.adjacency.edges().iter().enumerate() {
+        tally.see(f64::from(edge.uses), subject.midpoint(e), !edge.is_manifold());
+    }
+    let check = tally.check("manifold-edges", "", true, 2.0);
+    if check.holds {
+        Check { at: None, ..check }
+    } else {
+        check
+    }
+}
+
+fn boundary_on_segments(subject: &Subject) -> Check {
+    let edges = subject.adjacency.edges().iter().enumerate();
+    let strays = edges.filter(|(e, edge)| edge.is_boundary() && subject.boundary.segment[*e] == NO_SEGMENT);
+    none_of("boundary-on-segments", strays.map(|(e, _)| subject.midpoint(e)))
+}
+
+fn constrained_delaunay(subject: &Subject) -> Check {
+    let edges = subject.adjacency.edges();
+    let parts = parallel::map_ranges(edges.len(), |range| {
+        let mut tally = Tally::new(Worst::Largest);
+        for e in range.filter(|e| subject.boundary.segment[*e] == NO_SEGMENT) {
+            if let Some(excess) = delaunay_excess_deg(subject, &edges[e]) {
+                tally.see(excess, subject.midpoint(e), excess > 0.0);
+            }
+        }
+        tally
+    });
+    let check = Tally::all(Worst::Largest, parts).check("constrained-delaunay", "", true, 0.0);
+    if check.holds {
+        Check { at: None, ..check }
+    } else {
+        check
+    }
+}
+
+/// By how many degrees the angles opposite to an edge exceed 180 together: 0 if the edge is Delaunay by the exact
+/// predicate, above 0 if not; `None` unless it has a triangle on either side.
+fn delaunay_excess_deg(subject: &Subject, edge: &Edge) -> Option<f64> {
+    let mesh = subject.mesh;
+    let far = |t: u32| {
+        mesh.triangles
+            .get(t as usize)?
+            .iter()
+            .find(|k| !edge.ends.contains(k))
+            .copied()
+    };
+    let [a, b, left, right] =
+        [edge.ends[0], edge.ends[1], far(edge.left)?, far(edge.right)?].map(|k| mesh.points[k as usize]);
+    // The signs of in_circle assume a counter-clockwise triangle; one that is not fails another check.
+    if orient2d(a, b, left) <= 0.0 || in_circle(a, b, left, right) <= 0.0 {
+        return Some(0.0);
+    }
+    let angle = |at: DVec2| {
+        let (u, v) = (a - at, b - at);
+        u.perp_dot(v).abs().atan2(u.dot(v)).to_degrees()
+    };
+    Some((angle(left) + angle(right) - 180.0).max(f64::MIN_POSITIVE))
+}

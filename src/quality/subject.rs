@@ -1,0 +1,110 @@
+//! What several checks need of a mesh, computed once.
+
+use super::boundary::Boundary;
+use super::discs::DiscTree;
+use super::{Bounds, Hypotheses, parallel};
+use crate::domain::Domain;
+use crate::geometry::DVec2;
+use crate::geometry::tolerance::CERTIFICATE;
+use crate::mesh::{Adjacency, Mesh};
+
+/// A mesh under judgement.
+pub struct Subject<'a> {
+    pub domain: &'a Domain,
+    pub mesh: &'a Mesh,
+    pub adjacency: Adjacency,
+    pub boundary: Boundary,
+    /// Whether each mesh vertex is an input vertex with an angle under 60° that opens into the domain.
+    acute: Vec<bool>,
+    /// How many triangles touch such a vertex.
+    pub excused: usize,
+    /// The spacing and what it says about the mesh, if there is one.
+    pub sizes: Option<Sizes<'a>>,
+}
+
+/// The spacing at the mesh.
+pub struct Sizes<'a> {
+    pub bounds: Bounds<'a>,
+    pub hypotheses: Hypotheses,
+    /// f at each mesh vertex.
+    pub at_vertex: Vec<f64>,
+    /// f at the midpoint of each edge.
+    pub at_midpoint: Vec<f64>,
+    /// The biting circles, enlarged by [`CERTIFICATE`].
+    pub circles: DiscTree,
+    /// Distance from each mesh vertex to the nearest other one.
+    pub nn: Vec<f64>,
+}
+
+impl<'a> Subject<'a> {
+    /// Of any mesh.
+    pub fn new(domain: &'a Domain, mesh: &'a Mesh, bounds: Option<&Bounds<'a>>) -> Self {
+        let adjacency = mesh.adjacency();
+        let boundary = Boundary::find(domain, mesh, &adjacency);
+        let mut acute = vec![false; mesh.points.len()];
+        for &v in domain.acute_vertices() {
+            if let Some(k) = boundary.vertex[v] {
+                acute[k as usize] = true;
+            }
+        }
+        let excused = mesh
+            .triangles
+            .iter()
+            .filter(|triangle| triangle.iter().any(|k| acute[*k as usize]))
+            .count();
+        let sizes = bounds.map(|bounds| Sizes::new(domain, mesh, &adjacency, *bounds));
+        Self {
+            domain,
+            mesh,
+            adjacency,
+            boundary,
+            acute,
+            excused,
+            sizes,
+        }
+    }
+
+    /// Whether triangle `t` touches a vertex with an acute input angle.
+    pub fn is_excused(&self, t: usize) -> bool {
+        self.mesh.triangles[t].iter().any(|k| self.acute[*k as usize])
+    }
+
+    /// The middle of edge `e` of the adjacency.
+    pub fn midpoint(&self, e: usize) -> DVec2 {
+        midpoint(self.mesh, &self.adjacency, e)
+    }
+}
+
+fn midpoint(mesh: &Mesh, adjacency: &Adjacency, e: usize) -> DVec2 {
+    let [a, b] = adjacency.edges()[e].ends.map(|k| mesh.points[k as usize]);
+    a.midpoint(b)
+}
+
+impl<'a> Sizes<'a> {
+    fn new(domain: &Domain, mesh: &Mesh, adjacency: &Adjacency, bounds: Bounds<'a>) -> Self {
+        let at = |x: DVec2| bounds.spacing.at(x);
+        let at_vertex = parallel::map(mesh.points.len(), |k| at(mesh.points[k]));
+        let at_midpoint = parallel::map(adjacency.edges().len(), |e| at(midpoint(mesh, adjacency, e)));
+        let radius = |f: &f64| bounds.c_b * f * (1.0 + CERTIFICATE);
+        let circles = DiscTree::new(mesh.points.iter().copied().zip(at_vertex.iter().map(radius)));
+        let nn = parallel::map(mesh.points.len(), |k| circles.second_nearest(mesh.points[k]));
+        Self {
+            bounds,
+            hypotheses: Hypotheses::of(domain, &bounds),
+            at_vertex,
+            at_midpoint,
+            circles,
+            nn,
+        }
+    }
+
+    /// t as the checks use it.
+    pub fn t(&self) -> f64 {
+        self.hypotheses.t
+    }
+
+    /// Whether a claim is guaranteed: by the method, where the hypotheses hold.
+    pub fn applies(&self, claim: &str) -> bool {
+        self.bounds.guaranteed.contains(&claim) && self.hypotheses.imply(claim)
+    }
+}
