@@ -32,32 +32,58 @@ impl Spacing for Waves {
 }
 
 fn a_million_points(criterion: &mut Criterion) {
-    let domain = gallery::domain("unit-square").expect("a gallery name").expect("a valid domain");
+    let domain = gallery::domain("unit-square")
+        .expect("a gallery name")
+        .expect("a valid domain");
     let spacing = Waves { scale: 0.004 * 0.283 };
-    let request = Request { c_b: 1.0, seed: 0, threads: 1, budget: Budget::default() };
+    let request = Request {
+        c_b: 1.0,
+        seed: 0,
+        threads: 1,
+        budget: Budget::default(),
+    };
     let fifo = Biting { order: Order::Fifo };
 
     ALLOCATED.reset_peak_usage();
     let before = ALLOCATED.current_usage();
-    let bitten = fifo.bite(&domain, &spacing, &request, &mut Trace::default()).expect("a bitten square");
+    let bitten = fifo
+        .bite(&domain, &spacing, &request, &mut Trace::default())
+        .expect("a bitten square");
     let grown = ALLOCATED.peak_usage() - before;
     let points = bitten.centres.len();
-    println!("{points} points, heap growth of the bite loop {:.0} bytes a point", grown as f64 / points as f64);
+    println!(
+        "{points} points, heap growth of the bite loop {:.0} bytes a point",
+        grown as f64 / points as f64
+    );
 
     let mut group = criterion.benchmark_group("million-points");
-    group.sample_size(10).sampling_mode(SamplingMode::Flat).warm_up_time(Duration::from_millis(500));
+    group
+        .sample_size(10)
+        .sampling_mode(SamplingMode::Flat)
+        .warm_up_time(Duration::from_millis(500));
     group.bench_function("spade-bulk-load", |bencher| {
         let points: Vec<_> = bitten.centres.iter().map(|p| Point2::new(p.x, p.y)).collect();
-        bencher.iter(|| DelaunayTriangulation::<Point2<f64>>::bulk_load(points.clone()).expect("points").num_vertices());
+        bencher.iter(|| {
+            DelaunayTriangulation::<Point2<f64>>::bulk_load(points.clone())
+                .expect("points")
+                .num_vertices()
+        });
     });
     for order in Order::ALL {
         let mesher = Biting { order };
         group.bench_function(format!("bite-{order:?}").to_lowercase(), |bencher| {
-            bencher.iter(|| mesher.bite(&domain, &spacing, &request, &mut Trace::default()).map(|b| b.centres.len()));
+            bencher.iter(|| {
+                mesher
+                    .bite(&domain, &spacing, &request, &mut Trace::default())
+                    .map(|b| b.centres.len())
+            });
         });
     }
     group.bench_function("whole-mesh-fifo", |bencher| {
-        bencher.iter(|| fifo.mesh(&domain, &spacing, &request, &mut Trace::default()).map(|mesh| mesh.triangles.len()));
+        bencher.iter(|| {
+            fifo.mesh(&domain, &spacing, &request, &mut Trace::default())
+                .map(|mesh| mesh.triangles.len())
+        });
     });
     group.finish();
 }

@@ -28,6 +28,7 @@ pub const ACUTE_MARGIN: f64 = 1e-9;
 /// Short lists of the spacing: an item is kept while it comes within this share of the value that decides. Distances
 /// are computed to a few ulp; an item more, that cannot win, costs nothing but time.
 pub const SHORTLIST: f64 = 1e-12;
+
 /// Matching a mesh to a domain: coordinates that differ by at most this many ulp of the largest coordinate are the same
 /// vertex. Files keep doubles whole; other programs may shift a domain and back.
 pub const SAME_VERTEX_ULPS: f64 = 4.0;

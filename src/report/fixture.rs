@@ -144,6 +144,7 @@ fn certificate(smallest: f64, bound: f64) -> Certificate {
         holds,
         broken: usize::from(!holds),
         at: Some([0.25, 0.75]),
+        witnesses: Vec::new(),
     };
     Certificate {
         holds,
