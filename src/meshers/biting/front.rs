@@ -34,13 +34,11 @@ impl FrontVertex {
         cosine(self.centres[0], self.centres[1])
     }
 
-    /// Cosine of the smallest angle of the triangle of the vertex and its two centres.
-    pub fn cosine_of_smallest_angle(&self) -> f64 {
+    /// 2 |area| / Σ edge² of the triangle of the vertex and its two centres: largest, 1 / (2 √3), where equilateral.
+    pub fn shape_with_centres(&self) -> f64 {
         let [first, second] = self.centres;
-        let across = second - first;
-        self.cosine_at_front()
-            .max(cosine(-first, across))
-            .max(cosine(-second, -across))
+        let squares = first.length_squared() + second.length_squared() + first.distance_squared(second);
+        first.perp_dot(second).abs() / squares
     }
 }
 

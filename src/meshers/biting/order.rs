@@ -21,7 +21,7 @@ pub enum Order {
     Sharpest,
     /// The front vertex where the uneaten wedge is widest.
     Flattest,
-    /// The front vertex whose triangle with its two centres has the largest smallest angle.
+    /// The front vertex whose triangle with its two centres is nearest to equilateral, by area over squared edges.
     #[default]
     Equilateral,
     /// The front vertex with the smallest biting circle.
@@ -98,7 +98,7 @@ fn rank(order: Order, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
     let value = match order {
         Order::Sharpest => vertex.cosine_at_front(),
         Order::Flattest => -vertex.cosine_at_front(),
-        Order::Equilateral => vertex.cosine_of_smallest_angle(),
+        Order::Equilateral => -vertex.shape_with_centres(),
         Order::Smallest => size().log2(),
         Order::Largest => -size().log2(),
         Order::Fifo | Order::Lifo | Order::Random => 0.0,
