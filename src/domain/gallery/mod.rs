@@ -91,6 +91,26 @@ pub const ENTRIES: &[Entry] = &[
         "random points untangled (:n=40,seed=0)",
         Make::Random(random::simple, 40, 1000),
     ),
+    entry(
+        "aegean",
+        "the Aegean sea with its islands as holes (km)",
+        Make::Outline(outlines::AEGEAN),
+    ),
+    entry(
+        "british-isles",
+        "islands in many parts, one cut by a border (km)",
+        Make::Outline(outlines::BRITISH_ISLES),
+    ),
+    entry(
+        "iceland",
+        "fjords and peninsulas (km)",
+        Make::Outline(outlines::ICELAND),
+    ),
+    entry(
+        "italy",
+        "a peninsula, islands, an enclave as a hole (km)",
+        Make::Outline(outlines::ITALY),
+    ),
 ];
 
 /// The gallery domain that `spec` names, `None` where the gallery has none of that name.

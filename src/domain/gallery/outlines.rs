@@ -3,6 +3,11 @@
 use crate::domain::Pslg;
 use crate::domain::files::poly;
 
+pub(super) const AEGEAN: &str = include_str!("outlines/aegean.poly");
+pub(super) const BRITISH_ISLES: &str = include_str!("outlines/british-isles.poly");
+pub(super) const ICELAND: &str = include_str!("outlines/iceland.poly");
+pub(super) const ITALY: &str = include_str!("outlines/italy.poly");
+
 /// Reads an outline's file; it holds its vertices itself.
 pub(super) fn read(name: &str, text: &str) -> Result<Pslg, String> {
     let none_beside = || Ok((String::new(), name.to_owned()));
