@@ -3,11 +3,10 @@
 use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::legend::{Entry, Key, legend};
 use super::panel::{Axis, Panel};
-use super::style::{self, GREY, INK, Marker, SMALL};
+use super::style::{self, GREY, INK, Marker};
 use crate::experiment::record::Report;
 use crate::experiment::summary::{Grid, is_acute};
 use plotters::prelude::DrawingBackend;
-use plotters::style::text_anchor::{HPos, VPos};
 use std::path::Path;
 
 /// Theorem 6.8's bound asin(1/2 − t) in degrees, 0 from t = 1/2 on.
@@ -23,6 +22,9 @@ pub fn angle_bound_deg(t: f64) -> f64 {
 pub fn smallest_angle(grid: &Grid, stem: &Path) -> Result<(), ChartError> {
     write_both(&SmallestAngle { grid }, stem)
 }
+
+/// How far apart in t the points of neighbouring c_b stand, so that they do not hide one another.
+const SPREAD: f64 = 0.003;
 
 struct SmallestAngle<'a> {
     grid: &'a Grid<'a>,
@@ -46,7 +48,9 @@ impl SmallestAngle<'_> {
         let c_bs = self.grid.c_bs.iter().enumerate();
         entries.extend(c_bs.map(|(index, c_b)| (Key::Point(self.marker(index)), format!("{c_b}"))));
         entries.push((Key::Heading, String::new()));
+        entries.push((Key::Heading, "Theorem 6.8".into()));
         entries.push((Key::Line(INK), "asin(1/2 − t)".into()));
+        entries.push((Key::Heading, String::new()));
         entries.push((Key::Heading, "input angles".into()));
         entries.push((Key::Point(Marker::new(0, GREY)), "none under 90°".into()));
         entries.push((Key::Point(Marker::new(0, GREY).hollow()), "some under 90°".into()));
@@ -70,15 +74,15 @@ impl Figure for SmallestAngle<'_> {
             .map(|t| (t, angle_bound_deg(t)))
             .collect();
         panel.line(&curve, INK, 2 * FINE as u32)?;
+        let middle = (self.grid.c_bs.len() as f64 - 1.0) / 2.0;
         for (index, report) in self.points() {
             let marker = self.marker(index);
             let marker = if is_acute(report) { marker.hollow() } else { marker };
             if let Some(angle) = report.statistics.min_angle_free_deg {
-                panel.marker((report.t_effective, angle), marker)?;
+                let apart = SPREAD * (index as f64 - middle);
+                panel.marker((report.t_effective + apart, angle), marker)?;
             }
         }
-        let look = style::text(SMALL, INK, HPos::Left, VPos::Bottom);
-        panel.text((0.3, angle_bound_deg(0.3)), (8, -4), "Theorem 6.8", look)?;
         legend(&right, 40, &self.entries())
     }
 }

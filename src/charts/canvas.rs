@@ -1,5 +1,6 @@
 //! From a figure to its two files: SVG with text as text, and PNG drawn at twice the size and averaged down.
 
+use super::bitmap::Bitmap;
 use crate::files::write_whole;
 use plotters::coord::Shift;
 use plotters::drawing::DrawingAreaErrorKind;
@@ -88,7 +89,7 @@ pub(super) fn write_png(figure: &impl Figure, path: &Path) -> Drawn {
     let fine = fine_size(figure);
     let mut pixels = vec![255; 3 * fine.0 as usize * fine.1 as usize];
     {
-        let area = BitMapBackend::with_buffer(&mut pixels, fine).into_drawing_area();
+        let area = Bitmap(BitMapBackend::with_buffer(&mut pixels, fine)).into_drawing_area();
         figure.draw(&area)?;
         area.present()?;
     }

@@ -3,8 +3,12 @@
 //! Every figure is written twice, as SVG and as PNG, from the same drawing code.
 
 mod angles;
+mod bitmap;
 mod canvas;
+mod frontier;
+mod histograms;
 mod legend;
+mod mesh;
 mod orders;
 mod panel;
 mod size;
@@ -13,6 +17,9 @@ mod time;
 
 pub use angles::{angle_bound_deg, smallest_angle};
 pub use canvas::ChartError;
+pub use frontier::size_for_angle;
+pub use histograms::{angles_by_order, angles_by_t};
+pub use mesh::{draw_mesh, draw_mesh_sheet};
 pub use orders::{ORDER_MEASURES, orders};
 pub use size::{Measure, SIZE_RATIO, SIZE_RATIO_LFS, Titled, against_t, efficiency, heat_map};
 pub use time::time;

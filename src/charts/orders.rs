@@ -49,7 +49,7 @@ impl Orders<'_> {
         let across = span(self.groups.iter().flat_map(values));
         let y = Axis::categories("", names);
         let (y, left) = if first { (y, FIRST_LEFT) } else { (y.unnamed(), 10) };
-        let mut panel = Panel::new(area, "", Axis::linear(measure.label, across, 3), y, left)?;
+        let mut panel = Panel::new(area, "", Axis::linear(measure.label, across, 4), y, left)?;
         let spacings = self.spacings();
         for group in self.groups {
             let Some(line) = names.iter().position(|name| name == group.order) else {

@@ -186,7 +186,7 @@ impl<'a, DB: DrawingBackend + 'a> Panel<'a, DB> {
     /// Draws title, axes and grid on `area`; `left` is the room for the labels of y, in pixels.
     pub(super) fn new(area: &'a Area<DB>, title: &str, x: Axis, y: Axis, left: i32) -> Drawn<Self> {
         let mut builder = ChartBuilder::on(area);
-        builder.margin(6 * FINE).margin_right(16 * FINE);
+        builder.margin(10 * FINE).margin_right(18 * FINE);
         builder.x_label_area_size(58 * FINE).y_label_area_size(left * FINE);
         if !title.is_empty() {
             builder.caption(title, style::text(TITLE, INK, HPos::Center, VPos::Top));

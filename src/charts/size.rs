@@ -3,10 +3,10 @@
 use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::legend::{Entry, Key, colour_bar, legend};
 use super::panel::{Axis, Panel, log_span, span};
-use super::style::{self, GREY, Marker, SMALL, TINY};
+use super::style::{self, GREY, INK, Marker, SMALL, TINY, TITLE};
 use crate::experiment::record::Report;
-use crate::experiment::summary::Grid;
-use plotters::prelude::DrawingBackend;
+use crate::experiment::summary::{Grid, measured};
+use plotters::prelude::{DrawingBackend, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 use std::path::Path;
 
@@ -94,7 +94,11 @@ impl Figure for HeatMap<'_> {
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
-        let (panels, side) = columns(area, self.grids.len());
+        let (head, body) = area.split_vertically(40 * FINE);
+        let title = format!("{}, median over domains", self.measure.label);
+        let look = style::text(TITLE, INK, HPos::Left, VPos::Center);
+        head.draw(&Text::new(title, (80 * FINE, 22 * FINE), look))?;
+        let (panels, side) = columns(&body, self.grids.len());
         let scale = log_span(medians(self.grids, self.measure.value));
         let share = |value: f64| (value / scale.start).ln() / (scale.end / scale.start).ln();
         for ((title, grid), area) in self.grids.iter().zip(&panels) {
@@ -110,7 +114,9 @@ impl Figure for HeatMap<'_> {
                     let colour = style::continuous(share(value));
                     panel.cell((x - 0.5, y - 0.5), (x + 0.5, y + 0.5), colour)?;
                     let look = style::text(TINY, style::readable_on(colour), HPos::Center, VPos::Center);
-                    panel.text((x, y), (0, 0), &three_digits(value), look)?;
+                    let missing = grid.at(*t, *c_b).iter().any(|row| measured(row).is_none());
+                    let words = three_digits(value) + if missing { "*" } else { "" };
+                    panel.text((x, y), (0, 0), &words, look)?;
                 }
             }
         }
@@ -132,7 +138,7 @@ struct AgainstT<'a> {
 }
 
 /// The legend of c_b, with markers and colours as everywhere.
-fn c_b_entries(c_bs: &[f64], key: fn(Marker) -> Key) -> Vec<Entry> {
+pub(super) fn c_b_entries(c_bs: &[f64], key: fn(Marker) -> Key) -> Vec<Entry> {
     let heading = std::iter::once((Key::Heading, "c_b".to_string()));
     let series = c_bs
         .iter()
@@ -152,7 +158,7 @@ impl Figure for AgainstT<'_> {
         let scale = log_span(medians(self.grids, self.measure.value));
         for ((title, grid), area) in self.grids.iter().zip(&panels) {
             let reach = grid.ts.last().copied().unwrap_or(0.5);
-            let x = Axis::linear("t", 0.0..reach * 1.06, 5);
+            let x = Axis::linear("t", 0.0..reach * 1.06, 6);
             let mut panel = Panel::new(area, title, x, Axis::log(self.measure.label, scale.clone()), 86)?;
             for (index, c_b) in grid.c_bs.iter().enumerate() {
                 let value = |t: &f64| Some((*t, grid.median(*t, *c_b, self.measure.value)?));

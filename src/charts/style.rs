@@ -2,9 +2,7 @@
 //! series has a marker of its own besides.
 
 use super::canvas::{Area, Drawn, FINE, FONT};
-use plotters::prelude::{
-    Circle, Color, DrawingBackend, FontStyle, PathElement, Polygon, RGBColor, ShapeStyle, TextStyle,
-};
+use plotters::prelude::{Circle, Color, DrawingBackend, PathElement, Polygon, RGBColor, ShapeStyle, TextStyle};
 use plotters::style::IntoFont;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -43,7 +41,7 @@ pub(super) fn category(index: usize) -> RGBColor {
 
 /// The colour of item `index` of `count` ordered ones: viridis without its palest end.
 pub(super) fn ordered(index: usize, count: usize) -> RGBColor {
-    continuous(0.92 * index as f64 / count.saturating_sub(1).max(1) as f64)
+    continuous(0.88 * index as f64 / count.saturating_sub(1).max(1) as f64)
 }
 
 /// Viridis at `share`, which is held to 0 … 1.
@@ -63,12 +61,6 @@ pub(super) fn text(pixels: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle
     (FONT, FINE * pixels).into_font().color(&colour).pos(Pos::new(h, v))
 }
 
-/// As [`text`], bold.
-pub(super) fn bold(pixels: i32, colour: RGBColor, h: HPos, v: VPos) -> TextStyle<'static> {
-    let font = (FONT, FINE * pixels).into_font().style(FontStyle::Bold);
-    font.color(&colour).pos(Pos::new(h, v))
-}
-
 /// A line of this colour, `width` in drawing units.
 pub(super) fn stroke(colour: RGBColor, width: u32) -> ShapeStyle {
     colour.stroke_width(width)
@@ -82,6 +74,7 @@ pub(super) enum Shape {
     Up,
     Diamond,
     Down,
+    /// Thick, so that hollow and filled differ as for the others.
     Plus,
     Times,
 }
@@ -134,15 +127,10 @@ impl Marker {
         let moved = |points: Vec<(i32, i32)>| points.into_iter().map(|p| (x + p.0, y + p.1)).collect::<Vec<_>>();
         match self.outline() {
             None => area.draw(&Circle::new((x, y), self.radius, if self.filled { fill } else { line }))?,
-            Some(points) if self.filled && !self.is_open() => area.draw(&Polygon::new(moved(points), fill))?,
+            Some(points) if self.filled => area.draw(&Polygon::new(moved(points), fill))?,
             Some(points) => area.draw(&PathElement::new(moved(points), line))?,
         }
         Ok(())
-    }
-
-    /// Made of strokes only.
-    fn is_open(self) -> bool {
-        matches!(self.shape, Shape::Plus | Shape::Times)
     }
 
     /// Corners around (0, 0), closed; absent for the circle.
@@ -155,8 +143,30 @@ impl Marker {
             Shape::Up => vec![(0, -r - 1), (r + 1, s), (-r - 1, s), (0, -r - 1)],
             Shape::Down => vec![(0, r + 1), (r + 1, -s), (-r - 1, -s), (0, r + 1)],
             Shape::Diamond => vec![(0, -r - 2), (r + 2, 0), (0, r + 2), (-r - 2, 0), (0, -r - 2)],
-            Shape::Plus => vec![(0, -r), (0, r), (0, 0), (-r, 0), (r, 0)],
-            Shape::Times => vec![(-s, -s), (s, s), (0, 0), (-s, s), (s, -s)],
+            Shape::Plus => cross((0, r)),
+            Shape::Times => cross((s * 9 / 10, s * 9 / 10)),
         })
     }
+}
+
+/// A cross with arms along `tip` and its turns by quarters, thick enough to be filled.
+fn cross(tip: (i32, i32)) -> Vec<(i32, i32)> {
+    let turned = |(x, y): (i32, i32)| (-y, x);
+    let length = f64::from(tip.0).hypot(f64::from(tip.1));
+    let half = 1.25 * f64::from(FINE) / length;
+    let mut arm = tip;
+    let mut points = Vec::new();
+    for _ in 0..4 {
+        let side = turned(arm);
+        let (dx, dy) = (half * f64::from(side.0), half * f64::from(side.1));
+        let at = |along: f64, across: f64| {
+            let x = along * f64::from(arm.0) + across * dx;
+            let y = along * f64::from(arm.1) + across * dy;
+            (x.round() as i32, y.round() as i32)
+        };
+        points.extend([at(1.0, -1.0), at(1.0, 1.0), at(half, 1.0)]);
+        arm = side;
+    }
+    points.push(points[0]);
+    points
 }

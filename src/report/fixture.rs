@@ -92,7 +92,7 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
         integral_lfs: integral / 2.0,
         size_ratio: triangles as f64 / integral,
         size_ratio_lfs: 2.3 / (cell.t.max(0.05) * cell.c_b),
-        size_efficiency: 0.9,
+        size_efficiency: 0.9 - 0.2 * cell.t + 0.05 * noise(&row.key),
         min_angle_bound_deg: bound,
         fingerprint: String::new(),
         statistics: statistics(triangles, bound + margin),

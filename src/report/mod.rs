@@ -3,6 +3,7 @@
 //! [`write`] reads `rows.jsonl` of a results folder and writes `README.md` and `charts/` beside it. The same rows give
 //! the same bytes, in whatever order they were written.
 
+mod figures;
 mod findings;
 mod markdown;
 mod page;
@@ -10,10 +11,8 @@ mod page;
 #[cfg(test)]
 mod fixture;
 
-use crate::charts::{self, ChartError};
+use crate::charts::ChartError;
 use crate::experiment::record::Row;
-use crate::experiment::series::{order_groups, time_series};
-use crate::experiment::summary::Grid;
 use crate::files::write_whole;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -52,22 +51,13 @@ pub enum ReportError {
     },
 }
 
-/// A chart of the page.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Figure {
-    /// Its files are `charts/NAME.svg` and `charts/NAME.png`.
-    name: &'static str,
-    /// One line that says what is to be seen.
-    caption: &'static str,
-}
-
 /// Reads `folder/rows.jsonl`, writes `folder/charts/*.svg`, `*.png` and `folder/README.md`, and returns the page's path.
 ///
 /// # Errors
 /// [`ReportError`]: no rows there, a line that is no row, or a file that cannot be written.
 pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
     let rows = read(&folder.join("rows.jsonl"))?;
-    let figures = draw(&rows, &folder.join("charts"))?;
+    let figures = figures::draw(&rows, &folder.join("charts"))?;
     let path = folder.join("README.md");
     let text = page::page(&rows, &figures);
     write_whole(&path, text.as_bytes()).map_err(|source| ReportError::Write {
@@ -110,61 +100,4 @@ fn read(path: &Path) -> Result<Vec<Row>, ReportError> {
             .then(a.key.cmp(&b.key))
     });
     Ok(rows)
-}
-
-/// Draws every chart the rows have numbers for.
-fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Figure>, ChartError> {
-    let mut figures = Vec::new();
-    let mut add = |name, caption, drawn: &dyn Fn(&Path) -> Result<(), ChartError>| {
-        figures.push(Figure { name, caption });
-        drawn(&folder.join(name))
-    };
-    let grids = findings::grids(rows);
-    let all = Grid::of(rows.iter().filter(|row| row.group == "grid"));
-    if all.reports().next().is_some() {
-        add(
-            "angle-against-t",
-            "Smallest angle of each mesh against t, with the bound of Theorem 6.8.",
-            &|stem| charts::smallest_angle(&all, stem),
-        )?;
-        add("size-heat", "Triangles over ∫dA/f², median over domains.", &|stem| {
-            charts::heat_map(&grids, charts::SIZE_RATIO, stem)
-        })?;
-        add(
-            "size-against-t",
-            "Triangles over ∫dA/f² against t, median over domains.",
-            &|stem| charts::against_t(&grids, charts::SIZE_RATIO, stem),
-        )?;
-        let lfs = &grids[..1];
-        add(
-            "size-lfs-heat",
-            "Triangles over ∫dA/lfs², median over domains.",
-            &|stem| charts::heat_map(lfs, charts::SIZE_RATIO_LFS, stem),
-        )?;
-        add(
-            "size-lfs-against-t",
-            "Triangles over ∫dA/lfs² against t, median over domains.",
-            &|stem| charts::against_t(lfs, charts::SIZE_RATIO_LFS, stem),
-        )?;
-        add("efficiency", "Size efficiency of each mesh against t / c_b.", &|stem| {
-            charts::efficiency(&grids, stem)
-        })?;
-    }
-    let ordered: Vec<&Row> = rows.iter().filter(|row| row.group == "orders").collect();
-    let groups = order_groups(&ordered);
-    if groups.iter().any(|group| !group.reports.is_empty()) {
-        add(
-            "orders",
-            "Orders of bites: median over domains, and the range from the least to the most.",
-            &|stem| charts::orders(&groups, stem),
-        )?;
-    }
-    let timed: Vec<&Row> = rows.iter().filter(|row| row.group == "time").collect();
-    let series = time_series(&timed);
-    if !series.is_empty() {
-        add("time", "Seconds against triangles, whole and by step.", &|stem| {
-            charts::time(&series, stem)
-        })?;
-    }
-    Ok(figures)
 }

@@ -1,12 +1,12 @@
 //! `README.md` of a results folder.
 
-use super::Figure;
+use super::figures::Chart;
 use super::findings::{claims, grids, margins, tally};
 use super::markdown::{degrees, number, parameter, table};
 use crate::experiment::record::Row;
 
 /// The whole page.
-pub(super) fn page(rows: &[Row], figures: &[Figure]) -> String {
+pub(super) fn page(rows: &[Row], figures: &[Chart]) -> String {
     let total = tally(rows);
     let mut text = format!("# Results\n\n{} cells, {} measured.\n\n", total.cells, total.measured);
     for (title, grid) in grids(rows) {

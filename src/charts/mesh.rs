@@ -1,0 +1,174 @@
+//! Drawings of meshes: triangles coloured by their smallest angle, and the input segments.
+
+use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_png, write_svg};
+use super::legend::colour_bar;
+use super::style::{self, INK, SMALL, TITLE};
+use crate::geometry::{DVec2, Rect};
+use crate::mesh::Mesh;
+use plotters::prelude::{Color, DrawingBackend, PathElement, Polygon, RGBColor, Text};
+use plotters::style::text_anchor::{HPos, VPos};
+use std::path::Path;
+
+/// Colours change every 5°: few enough to be told apart, and the picture stays small.
+const BANDS: usize = 12;
+
+/// Above this many triangles an SVG is larger than any reader wants.
+const MOST_IN_SVG: usize = 20_000;
+
+/// Draws `mesh` to `path`, as PNG or SVG by its ending. Each triangle has a colour for its smallest angle.
+///
+/// # Errors
+/// [`ChartError`]; an SVG of more than 20 000 triangles is refused with the advice to draw a PNG.
+pub fn draw_mesh(mesh: &Mesh, path: &Path) -> Result<(), ChartError> {
+    let figure = Sheet { meshes: &[("", mesh)] };
+    write(&figure, path)
+}
+
+/// Draws several meshes two by two, each under its title, to `path`, as PNG or SVG by its ending.
+///
+/// # Errors
+/// As [`draw_mesh`].
+pub fn draw_mesh_sheet(meshes: &[(&str, &Mesh)], path: &Path) -> Result<(), ChartError> {
+    write(&Sheet { meshes }, path)
+}
+
+fn write(figure: &Sheet, path: &Path) -> Result<(), ChartError> {
+    if path.extension().is_none_or(|ending| ending != "svg") {
+        return write_png(figure, path);
+    }
+    let triangles: usize = figure.meshes.iter().map(|(_, mesh)| mesh.triangles.len()).sum();
+    if triangles > MOST_IN_SVG {
+        let advice = format!("{triangles} triangles make too large an SVG: ask for a .png");
+        return Err(ChartError::Draw(advice));
+    }
+    write_svg(figure, path)
+}
+
+struct Sheet<'a> {
+    meshes: &'a [(&'a str, &'a Mesh)],
+}
+
+/// Room for the colour bar, in pixels.
+const SIDE: u32 = 120;
+
+impl Figure for Sheet<'_> {
+    fn size(&self) -> (u32, u32) {
+        match self.meshes {
+            [(_, mesh)] => {
+                let size = Rect::around(mesh.points.iter().copied()).size();
+                let height = (1200 - SIDE) as f64 * size.y / size.x;
+                // Also where a mesh is flat or has no points.
+                (1200, (height as u32).clamp(420, 1100))
+            }
+            _ => (1200, 1080),
+        }
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
+        let (left, right) = area.split_horizontally((1200 - SIDE as i32) * FINE);
+        match self.meshes {
+            [(_, mesh)] => draw(&left, mesh)?,
+            meshes => {
+                let areas = left.split_evenly((meshes.len().div_ceil(2), 2));
+                for ((title, mesh), area) in meshes.iter().zip(&areas) {
+                    let (head, body) = area.split_vertically(36 * FINE);
+                    let middle = (head.dim_in_pixel().0 as i32 / 2, 22 * FINE);
+                    let look = style::text(TITLE, INK, HPos::Center, VPos::Center);
+                    head.draw(&Text::new(title.to_string(), middle, look))?;
+                    draw(&body, mesh)?;
+                }
+            }
+        }
+        let ticks: Vec<_> = (0..=6).map(|k| (f64::from(k) * 10.0, format!("{}°", k * 10))).collect();
+        let words = style::text(SMALL, INK, HPos::Left, VPos::Center);
+        for (line, word) in ["smallest", "angle"].into_iter().enumerate() {
+            right.draw(&Text::new(
+                word,
+                (4 * FINE, (24 + 22 * line as i32) * FINE),
+                words.clone(),
+            ))?;
+        }
+        let (_, bar) = right.split_vertically(20 * FINE);
+        colour_bar(&bar, "", 0.0..60.0, &ticks, BANDS)
+    }
+}
+
+/// Draws triangles, their edges where there is room for them, and the input segments.
+fn draw<DB: DrawingBackend>(area: &Area<DB>, mesh: &Mesh) -> Drawn {
+    let view = View::of(mesh, area.dim_in_pixel());
+    let corners = |triangle: &[u32; 3]| triangle.map(|v| mesh.points[v as usize]);
+    for triangle in &mesh.triangles {
+        let places = corners(triangle).map(|point| view.place(point)).to_vec();
+        let smallest = angles_deg(corners(triangle)).into_iter().fold(60.0, f64::min);
+        area.draw(&Polygon::new(places, band(smallest).filled()))?;
+    }
+    if view.median_edge(mesh) > 4.0 * f64::from(FINE) {
+        let edge = style::stroke(RGBColor(60, 60, 60), 1);
+        for [a, b] in edges(mesh) {
+            let ends = [a, b].map(|v| view.place(mesh.points[v as usize])).to_vec();
+            area.draw(&PathElement::new(ends, edge))?;
+        }
+    }
+    let line = style::stroke(INK, FINE as u32 + 1);
+    for piece in &mesh.pieces {
+        let ends = [piece.a, piece.b].map(|v| view.place(mesh.points[v as usize])).to_vec();
+        area.draw(&PathElement::new(ends, line))?;
+    }
+    Ok(())
+}
+
+fn band(angle_deg: f64) -> RGBColor {
+    let place = (angle_deg / 60.0 * BANDS as f64).floor().clamp(0.0, BANDS as f64 - 1.0);
+    style::continuous((place + 0.5) / BANDS as f64)
+}
+
+/// Each edge once, sorted.
+fn edges(mesh: &Mesh) -> Vec<[u32; 2]> {
+    let sides = mesh.triangles.iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut edges: Vec<[u32; 2]> = sides.map(|[a, b]| [*a.min(b), *a.max(b)]).collect();
+    edges.sort_unstable();
+    edges.dedup();
+    edges
+}
+
+/// The three angles in degrees.
+fn angles_deg([a, b, c]: [DVec2; 3]) -> [f64; 3] {
+    let angle = |u: DVec2, v: DVec2| u.perp_dot(v).abs().atan2(u.dot(v)).to_degrees();
+    [angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)]
+}
+
+/// From the plane to drawing units, y turned over, the same scale in both directions.
+struct View {
+    centre: DVec2,
+    middle: DVec2,
+    scale: f64,
+}
+
+impl View {
+    fn of(mesh: &Mesh, (width, height): (u32, u32)) -> Self {
+        let bounds = Rect::around(mesh.points.iter().copied());
+        let room = DVec2::new(f64::from(width), f64::from(height));
+        let margin = DVec2::splat(24.0 * f64::from(FINE));
+        let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
+        Self {
+            centre: bounds.centre(),
+            middle: 0.5 * room,
+            scale: ((room - margin) / size).min_element(),
+        }
+    }
+
+    fn place(&self, point: DVec2) -> (i32, i32) {
+        let moved = self.scale * (point - self.centre);
+        (
+            (self.middle.x + moved.x).round() as i32,
+            (self.middle.y - moved.y).round() as i32,
+        )
+    }
+
+    /// The median edge in drawing units.
+    fn median_edge(&self, mesh: &Mesh) -> f64 {
+        let length = |[a, b]: [u32; 2]| mesh.points[a as usize].distance(mesh.points[b as usize]);
+        let lengths = edges(mesh).into_iter().map(length).collect();
+        crate::experiment::summary::median(lengths).unwrap_or(0.0) * self.scale
+    }
+}
