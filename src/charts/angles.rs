@@ -6,16 +6,12 @@ use super::panel::{Axis, Panel};
 use super::style::{self, GREY, INK, Marker};
 use crate::experiment::record::Report;
 use crate::experiment::summary::{Grid, is_acute};
+use crate::quality::min_angle_bound_deg;
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
 
-/// Theorem 6.8's bound asin(1/2 − t) in degrees, 0 from t = 1/2 on.
-pub fn angle_bound_deg(t: f64) -> f64 {
-    (0.5 - t).max(0.0).asin().to_degrees()
-}
-
 /// Draws the smallest angle of every measured cell of `grid` against its effective t, with the curve asin(1/2 − t).
-/// Hollow points are domains with an input angle under 90°.
+/// Hollow points are domains whose segments meet at an angle under 90°.
 ///
 /// # Errors
 /// [`ChartError`].
@@ -51,7 +47,7 @@ impl SmallestAngle<'_> {
         entries.push((Key::Heading, "Theorem 6.8".into()));
         entries.push((Key::Line(INK), "asin(1/2 − t)".into()));
         entries.push((Key::Heading, String::new()));
-        entries.push((Key::Heading, "input angles".into()));
+        entries.push((Key::Heading, "segment angles".into()));
         entries.push((Key::Point(Marker::new(0, GREY)), "none under 90°".into()));
         entries.push((Key::Point(Marker::new(0, GREY).hollow()), "some under 90°".into()));
         entries
@@ -71,7 +67,7 @@ impl Figure for SmallestAngle<'_> {
         let mut panel = Panel::new(&left, "", x, y, 70)?;
         let curve: Vec<_> = (0..=100)
             .map(|k| f64::from(k) * 0.005)
-            .map(|t| (t, angle_bound_deg(t)))
+            .map(|t| (t, min_angle_bound_deg(t)))
             .collect();
         panel.line(&curve, INK, 2 * FINE as u32)?;
         let middle = (self.grid.c_bs.len() as f64 - 1.0) / 2.0;

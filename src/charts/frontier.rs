@@ -8,6 +8,7 @@ use super::style::{self, GREY, INK, TINY};
 use crate::experiment::summary::{Pair, distinct, frontier};
 use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, VPos};
+use std::ops::Range;
 use std::path::Path;
 
 /// Draws triangles / ∫ dA / lfs² against the smallest angle, one point for each (t, c_b), those that no other beats in
@@ -30,7 +31,9 @@ impl Figure for SizeForAngle<'_> {
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
         let (left, right) = area.split_horizontally((1200 - 190) * FINE);
         let c_bs = distinct(self.pairs.iter().map(|pair| pair.c_b));
-        let across = span(self.pairs.iter().map(|pair| pair.smallest_angle_deg));
+        let Range { start, end } = span(self.pairs.iter().map(|pair| pair.smallest_angle_deg));
+        // Room for the label of the rightmost point.
+        let across = start..end + 0.06 * (end - start);
         let upward = log_span(self.pairs.iter().map(|pair| pair.size_ratio_lfs));
         let x = Axis::linear("smallest angle over the domains (degrees)", across, 8);
         let mut panel = Panel::new(&left, "", x, Axis::log(SIZE_RATIO_LFS.label, upward), 86)?;

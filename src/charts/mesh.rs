@@ -5,6 +5,7 @@ use super::legend::colour_bar;
 use super::style::{self, INK, SMALL, TITLE};
 use crate::geometry::{DVec2, Rect};
 use crate::mesh::Mesh;
+use crate::quality::angles_deg;
 use plotters::prelude::{Color, DrawingBackend, PathElement, Polygon, RGBColor, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 use std::path::Path;
@@ -96,10 +97,9 @@ impl Figure for Sheet<'_> {
 /// Draws triangles, their edges where there is room for them, and the input segments.
 fn draw<DB: DrawingBackend>(area: &Area<DB>, mesh: &Mesh) -> Drawn {
     let view = View::of(mesh, area.dim_in_pixel());
-    let corners = |triangle: &[u32; 3]| triangle.map(|v| mesh.points[v as usize]);
-    for triangle in &mesh.triangles {
-        let places = corners(triangle).map(|point| view.place(point)).to_vec();
-        let smallest = angles_deg(corners(triangle)).into_iter().fold(60.0, f64::min);
+    for corners in (0..mesh.triangles.len()).map(|t| mesh.corners(t)) {
+        let places = corners.map(|point| view.place(point)).to_vec();
+        let smallest = angles_deg(corners).into_iter().fold(60.0, f64::min);
         area.draw(&Polygon::new(places, band(smallest).filled()))?;
     }
     if view.median_edge(mesh) > 4.0 * f64::from(FINE) {
@@ -129,12 +129,6 @@ fn edges(mesh: &Mesh) -> Vec<[u32; 2]> {
     edges.sort_unstable();
     edges.dedup();
     edges
-}
-
-/// The three angles in degrees.
-fn angles_deg([a, b, c]: [DVec2; 3]) -> [f64; 3] {
-    let angle = |u: DVec2, v: DVec2| u.perp_dot(v).abs().atan2(u.dot(v)).to_degrees();
-    [angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)]
 }
 
 /// From the plane to drawing units, y turned over, the same scale in both directions.

@@ -15,7 +15,7 @@ mod size;
 mod style;
 mod time;
 
-pub use angles::{angle_bound_deg, smallest_angle};
+pub use angles::smallest_angle;
 pub use canvas::ChartError;
 pub use frontier::size_for_angle;
 pub use histograms::{angles_by_order, angles_by_t};

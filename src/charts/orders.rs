@@ -13,11 +13,11 @@ use std::path::Path;
 /// What orders are compared by, with units.
 pub const ORDER_MEASURES: [Measure; 4] = [
     Measure {
-        label: "smallest angle (degrees)",
+        label: "smallest angle (°)",
         value: |report| report.statistics.min_angle_free_deg.unwrap_or(f64::NAN),
     },
     Measure {
-        label: "mean smallest angle (degrees)",
+        label: "mean smallest angle (°)",
         value: |report| report.statistics.mean_min_angle_deg,
     },
     Measure {

@@ -3,14 +3,11 @@
 //! Charts and pages take their numbers from here, so that a table and a figure cannot disagree.
 
 use crate::experiment::record::{Outcome, Report, Row};
+use crate::geometry::tolerance::RIGHT_ANGLE_DEG;
 
-/// Input angles below this are acute, in degrees. A right angle computed from rounded coordinates may come out a few
-/// units in the last place under 90°, hence the slack.
-pub const ACUTE_BELOW_DEG: f64 = 90.0 - 1e-9;
-
-/// Whether an input angle inside the domain is under 90°, which the paper excludes.
+/// Whether two neighbouring segments meet at an angle under 90°, inside or outside: §5.1 assumes that none do.
 pub fn is_acute(report: &Report) -> bool {
-    report.smallest_input_angle_deg < ACUTE_BELOW_DEG
+    report.smallest_segment_angle_deg < 90.0 - RIGHT_ANGLE_DEG
 }
 
 /// The `q`-quantile of `values` (0 ≤ q ≤ 1), linear between neighbours; absent for no values. NaN sorts last.
@@ -85,10 +82,11 @@ pub fn family(spacing: &str) -> &str {
     spacing.split([':', '(']).next().unwrap_or(spacing)
 }
 
-/// Splits rows by the family of their spacing, in the order in which the families first appear. Each comes with a
-/// title: the spacing itself where all are the same, else its family.
+/// Splits rows by the family of their spacing: `lfs` first, since the paper's sizes refer to it, then the others in the
+/// order in which they first appear. Each comes with a title: the spacing itself where all are the same, else its family.
 pub fn by_spacing<'a>(rows: &[&'a Row]) -> Vec<(String, Vec<&'a Row>)> {
-    let families = first_seen(rows.iter().map(|row| family(&row.cell.spacing)));
+    let mut families = first_seen(rows.iter().map(|row| family(&row.cell.spacing)));
+    families.sort_by_key(|name| *name != "lfs");
     let split = families.into_iter().map(|name| {
         let own: Vec<&Row> = rows
             .iter()

@@ -58,6 +58,8 @@ mod structure;
 mod subject;
 mod tally;
 
+pub use shape::angles_deg;
+
 use crate::domain::Domain;
 use crate::mesh::Mesh;
 use crate::spacing::Spacing;

@@ -50,8 +50,7 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Chart>, ChartError
     };
     draw_grid(rows, &mut drawer)?;
     draw_orders(rows, &mut drawer)?;
-    let timed: Vec<&Row> = rows.iter().filter(|row| row.group == "time").collect();
-    let series = time_series(&timed);
+    let series = time_series(&findings::of_group(rows, "time"));
     if !series.is_empty() {
         let caption = "Seconds against triangles, whole and by step, with the slopes of fitted lines.";
         charts::time(&series, &drawer.next(Section::Time, "time", caption))?;
@@ -100,8 +99,7 @@ fn draw_grid(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
 }
 
 fn draw_orders(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
-    let ordered: Vec<&Row> = rows.iter().filter(|row| row.group == "orders").collect();
-    let groups = order_groups(&ordered);
+    let groups = order_groups(&findings::of_group(rows, "orders"));
     if groups.iter().all(|group| group.reports.is_empty()) {
         return Ok(());
     }

@@ -1,7 +1,8 @@
 //! What the rows answer, as numbers; the page only sets them in words.
 
+use super::markdown::{degrees, number, parameter};
 use crate::experiment::record::{Outcome, Report, Row};
-use crate::experiment::series::{OrderGroup, order_groups};
+use crate::experiment::series::{OrderGroup, TimeSeries, order_groups, time_series};
 use crate::experiment::summary::{Grid, Pair, by_spacing, first_seen, is_acute, measured, median, quantile};
 
 /// How cells ended.
@@ -190,10 +191,72 @@ pub(super) fn claims(rows: &[Row]) -> Vec<ClaimTally> {
     tallies
 }
 
-/// The grid rows by spacing, `lfs` first where it is there: the sizes of the paper refer to it.
+/// The grid rows by spacing.
 pub(super) fn grids(rows: &[Row]) -> Vec<(String, Grid<'_>)> {
-    let own: Vec<&Row> = rows.iter().filter(|row| row.group == "grid").collect();
-    let mut split = by_spacing(&own);
-    split.sort_by_key(|(title, _)| title != "lfs");
+    let split = by_spacing(&of_group(rows, "grid"));
     split.into_iter().map(|(title, rows)| (title, Grid::of(rows))).collect()
+}
+
+/// The rows of one group of the plan.
+pub(super) fn of_group<'a>(rows: &'a [Row], group: &str) -> Vec<&'a Row> {
+    rows.iter().filter(|row| row.group == group).collect()
+}
+
+/// How the time of one step grows.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Slope {
+    pub(super) name: String,
+    /// Of log seconds against log triangles.
+    pub(super) slope: Option<f64>,
+    /// Median over cells.
+    pub(super) seconds_per_triangle: Option<f64>,
+    /// Fewest and most triangles.
+    pub(super) triangles: (f64, f64),
+}
+
+/// The whole mesh first, then its steps.
+pub(super) fn slopes(rows: &[Row]) -> Vec<Slope> {
+    let series = time_series(&of_group(rows, "time"));
+    let one = |series: TimeSeries| {
+        let triangles: Vec<f64> = series.points.iter().map(|point| point.0).collect();
+        let end = |q| quantile(triangles.clone(), q).unwrap_or(0.0);
+        Slope {
+            slope: series.fit().map(|line| line.slope),
+            seconds_per_triangle: median(series.points.iter().map(|point| point.1 / point.0).collect()),
+            triangles: (end(0.0), end(1.0)),
+            name: series.name,
+        }
+    };
+    series.into_iter().map(one).collect()
+}
+
+/// Checks that did not hold, as lines of a table: the guaranteed ones, or those only measured.
+pub(super) fn broken_checks(rows: &[Row], applies: bool) -> Vec<Vec<String>> {
+    let mut lines = Vec::new();
+    for report in rows.iter().filter_map(measured) {
+        for check in report
+            .certificate
+            .checks
+            .iter()
+            .filter(|check| check.applies == applies && !check.holds)
+        {
+            let at = check.at.map(|[x, y]| format!("({}, {})", number(x), number(y)));
+            lines.push(vec![
+                report.domain.clone(),
+                report.spacing.clone(),
+                parameter(report.t),
+                parameter(report.t_effective),
+                parameter(report.c_b),
+                check.claim.clone(),
+                number(check.worst),
+                number(check.bound),
+                check.broken.to_string(),
+                at.unwrap_or_else(|| "–".into()),
+                degrees(report.smallest_input_angle_deg),
+                degrees(report.smallest_segment_angle_deg),
+                report.forced_pieces.to_string(),
+            ]);
+        }
+    }
+    lines
 }

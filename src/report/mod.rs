@@ -7,11 +7,13 @@ mod figures;
 mod findings;
 mod markdown;
 mod page;
+mod sections;
 
 #[cfg(test)]
 mod fixture;
 
 use crate::charts::ChartError;
+use crate::experiment::plan::Plan;
 use crate::experiment::record::Row;
 use crate::files::write_whole;
 use std::collections::BTreeMap;
@@ -59,12 +61,24 @@ pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
     let rows = read(&folder.join("rows.jsonl"))?;
     let figures = figures::draw(&rows, &folder.join("charts"))?;
     let path = folder.join("README.md");
-    let text = page::page(&rows, &figures);
+    let text = page::page(&rows, &figures, &heading(folder));
     write_whole(&path, text.as_bytes()).map_err(|source| ReportError::Write {
         path: path.clone(),
         source,
     })?;
     Ok(path)
+}
+
+/// The folder's name, and the question of the plan that lies in it, if there is one.
+fn heading(folder: &Path) -> page::Heading {
+    let plan = Plan::read(&folder.join("plan.toml")).ok();
+    page::Heading {
+        name: folder
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+            .unwrap_or_default(),
+        question: plan.map(|plan| plan.question.trim().to_string()),
+    }
 }
 
 /// Reads rows. Of rows with one key the last stands. They come sorted by what was asked, since cells that run in

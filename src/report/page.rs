@@ -1,34 +1,185 @@
-//! `README.md` of a results folder.
+//! `README.md` of a results folder: what was run, what came out, the charts.
 
-use super::figures::Chart;
-use super::findings::{claims, grids, margins, tally};
-use super::markdown::{degrees, number, parameter, table};
-use crate::experiment::record::Row;
+use super::figures::{Chart, Section};
+use super::findings::{grids, of_group, tally};
+use super::markdown::{number, plain, table};
+use super::sections;
+use crate::experiment::record::{Outcome, Row};
+use crate::experiment::summary::{first_seen, measured, quantile};
+
+/// What the page tells besides the rows.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Heading {
+    /// Name of the results folder.
+    pub(super) name: String,
+    /// The question the plan asks, where the plan lies beside the rows.
+    pub(super) question: Option<String>,
+}
 
 /// The whole page.
-pub(super) fn page(rows: &[Row], figures: &[Chart]) -> String {
-    let total = tally(rows);
-    let mut text = format!("# Results\n\n{} cells, {} measured.\n\n", total.cells, total.measured);
-    for (title, grid) in grids(rows) {
-        text += &format!("## {title}\n\n");
-        let lines = margins(&grid).into_iter().map(|margin| {
-            vec![
-                parameter(margin.t),
-                degrees(margin.plain.map(|s| s.least)),
-                degrees(margin.plain.map(|s| s.median)),
-                number(margin.acute.map(|s| s.least)),
-            ]
-        });
-        text += &table(&["t", "least", "median", "acute"], &lines.collect::<Vec<_>>());
+pub(super) fn page(rows: &[Row], charts: &[Chart], heading: &Heading) -> String {
+    let mut text = format!("# Results of `{}`\n\n", heading.name);
+    text += "This page and its charts are made from `rows.jsonl` alone, by `biting report`; nothing here is typed.\n\n";
+    text += &format!(
+        "**Question.** {}\n\n",
+        heading.question.as_deref().unwrap_or(DEFAULT_QUESTION)
+    );
+    text += &main_findings(rows);
+    text += &what_was_run(rows, &heading.name);
+    let parts = [
+        (
+            "Smallest angle against its bound",
+            sections::angles(rows),
+            Section::Angle,
+        ),
+        ("Size", sections::sizes(rows), Section::Size),
+        (
+            "Fewest triangles for a smallest angle",
+            sections::fewest_triangles(rows),
+            Section::Fewest,
+        ),
+        ("Orders of bites", sections::orders(rows), Section::Orders),
+        ("Time", sections::time(rows), Section::Time),
+    ];
+    for (title, part, section) in parts {
+        let own: Vec<&Chart> = charts.iter().filter(|chart| chart.section == section).collect();
+        if part.is_empty() && own.is_empty() {
+            continue;
+        }
+        text += &format!("## {title}\n\n{part}");
+        for Chart { name, caption, .. } in own {
+            text += &format!("![{caption}](charts/{name}.png)\n*{caption}* ([SVG](charts/{name}.svg))\n\n");
+        }
     }
-    for claim in claims(rows) {
+    text + &sections::certificate(rows) + &unmeasured(rows)
+}
+
+const DEFAULT_QUESTION: &str = "How good and how small are the meshes that biting makes, as t and c_b vary?";
+
+/// One line for each thing asked, with its numbers.
+fn main_findings(rows: &[Row]) -> String {
+    let lines = [
+        sections::angle_finding(rows),
+        sections::size_finding(rows),
+        sections::fewest_finding(rows),
+        sections::order_finding(rows),
+        sections::certificate_finding(rows),
+        sections::time_finding(rows),
+    ];
+    let lines: String = lines.into_iter().flatten().map(|line| format!("* {line}\n")).collect();
+    format!("## Main findings\n\n{lines}\n")
+}
+
+fn what_was_run(rows: &[Row], name: &str) -> String {
+    let count = |rows: &[&Row], outcome: Outcome| rows.iter().filter(|row| row.outcome == outcome).count();
+    let line = |name: &str, rows: &[&Row]| {
+        let share = |outcome| match count(rows, outcome) {
+            0 => "0".to_string(),
+            some => format!("{some} of {}", rows.len()),
+        };
+        let outcomes = [Outcome::Measured, Outcome::Skipped, Outcome::Declined, Outcome::Failed].map(share);
+        std::iter::once(name.to_string()).chain(outcomes).collect::<Vec<_>>()
+    };
+    let head = |what| [what, "measured", "skipped", "declined", "failed"];
+    let groups = first_seen(rows.iter().map(|row| row.group.as_str()));
+    let mut by_group: Vec<_> = groups.iter().map(|group| line(group, &of_group(rows, group))).collect();
+    by_group.push(line("all", &rows.iter().collect::<Vec<_>>()));
+    let domains = first_seen(rows.iter().map(|row| row.cell.domain.as_str()));
+    let by_domain = domains.iter().map(|domain| {
+        let own: Vec<&Row> = rows.iter().filter(|row| row.cell.domain == *domain).collect();
+        line(domain, &own)
+    });
+    let mut text = String::from("## What was run\n\n") + &provenance(rows, name);
+    text += &table(&head("group of cells"), &by_group);
+    text += &table(&head("domain"), &by_domain.collect::<Vec<_>>());
+    for (title, grid) in grids(rows) {
+        let values = |values: &[f64]| values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(", ");
         text += &format!(
-            "* {} held in {} of {}\n",
-            claim.claim, claim.guaranteed.1, claim.guaranteed.0
+            "Grid with `{title}`: t = {}; c_b = {}.\n\n",
+            values(&grid.ts),
+            values(&grid.c_bs)
         );
     }
-    for figure in figures {
-        text += &format!("![{1}](charts/{0}.svg)\n\n{1}\n\n", figure.name, figure.caption);
+    text
+}
+
+/// Command, version, machine and date of the measured rows.
+fn provenance(rows: &[Row], name: &str) -> String {
+    let provenances: Vec<_> = rows
+        .iter()
+        .filter_map(measured)
+        .map(|report| &report.provenance)
+        .collect();
+    let all = |text: Vec<String>| first_seen(text.iter().map(String::as_str)).join("; ");
+    let command = match name.strip_suffix("-quick") {
+        Some("sweep") => "sweep --quick".to_string(),
+        Some(plan) => format!("sweep experiments/{plan}.toml --quick"),
+        None if name == "sweep" => "sweep".to_string(),
+        None => format!("sweep experiments/{name}.toml"),
+    };
+    let versions = provenances.iter().map(|made| {
+        let commit: String = made.commit.chars().take(12).collect();
+        let dirty = if made.dirty { " with changes" } else { "" };
+        format!("biting {} {commit}{dirty}, {}", made.version, made.rustc)
+    });
+    let machines = provenances
+        .iter()
+        .map(|made| format!("{}, {} cores, {}", made.cpu, made.cores, made.os));
+    let mut dates: Vec<&str> = provenances.iter().map(|made| made.date.as_str()).collect();
+    dates.sort_unstable();
+    let days = [dates.first(), dates.last()].map(|date| date.map(|date| date.chars().take(16).collect::<String>()));
+    let [first, last] = days.map(Option::unwrap_or_default);
+    let memory = rows
+        .iter()
+        .filter_map(measured)
+        .map(|report| report.peak_rss_bytes as f64 / f64::from(1 << 20));
+    let lines = [
+        ("Command", format!("`cargo run --release -- {command}`")),
+        ("Version", all(versions.collect())),
+        ("Machine", all(machines.collect())),
+        ("Run", format!("{first} to {last} UTC")),
+        (
+            "Peak memory",
+            format!("{} MiB", number(quantile(memory.collect(), 1.0))),
+        ),
+    ];
+    let text: String = lines
+        .iter()
+        .map(|(what, value)| format!("* {what}: {}\n", plain(value)))
+        .collect();
+    text + "\n"
+}
+
+/// Most lines a list of rows has.
+pub(super) const MOST_LINES: usize = 40;
+
+/// Cells that did not end measured, with reasons; skipped ones only as a count.
+fn unmeasured(rows: &[Row]) -> String {
+    let total = tally(rows);
+    let mut text = format!(
+        "## Cells not measured\n\nSkipped {} of {}, since more triangles were expected than the budget allows. \
+         Declined {} of {}. Failed {} of {}.\n\n",
+        total.skipped, total.cells, total.declined, total.cells, total.failed, total.cells
+    );
+    let ended = rows
+        .iter()
+        .filter(|row| matches!(row.outcome, Outcome::Declined | Outcome::Failed));
+    let lines: Vec<Vec<String>> = ended
+        .map(|row| {
+            let how = if row.outcome == Outcome::Failed {
+                "failed"
+            } else {
+                "declined"
+            };
+            let reason = row.reason.clone().unwrap_or_default();
+            vec![format!("`{}`", row.key), how.to_string(), reason]
+        })
+        .collect();
+    if !lines.is_empty() {
+        text += &table(&["cell", "ended", "reason"], &lines[..lines.len().min(MOST_LINES)]);
+    }
+    if lines.len() > MOST_LINES {
+        text += &format!("and {} more in `rows.jsonl`.\n", lines.len() - MOST_LINES);
     }
     text
 }

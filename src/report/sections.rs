@@ -1,0 +1,375 @@
+//! The parts of the page that answer a question each: a finding in one line, and tables.
+
+use super::findings::{
+    OrderFinding, broken_checks, claims, fewest, grids, margin, margins, of_group, order_findings, slopes, spread,
+};
+use super::markdown::{degrees, number, parameter, table};
+use super::page::MOST_LINES;
+use crate::experiment::record::{Report, Row};
+use crate::experiment::summary::{Grid, Pair, measured, median};
+
+/// How far smallest angles lie above asin(1/2 − t).
+pub(super) fn angle_finding(rows: &[Row]) -> Option<String> {
+    let all = Grid::of(of_group(rows, "grid"));
+    let plain = margin(&all, false, None)?;
+    let mut line = format!(
+        "**Smallest angle.** On domains without angles under 90° between segments it lies {} to {} above \
+         asin(1/2 − t), median {}, over {} meshes.",
+        degrees(plain.least),
+        degrees(plain.most),
+        degrees(plain.median),
+        plain.count
+    );
+    if let Some(acute) = margin(&all, true, None) {
+        line += &format!(
+            " On the others {} to {}, median {}, over {} meshes, leaving out triangles at input angles under 60°.",
+            degrees(acute.least),
+            degrees(acute.most),
+            degrees(acute.median),
+            acute.count
+        );
+    }
+    Some(line)
+}
+
+/// Margins for each t.
+pub(super) fn angles(rows: &[Row]) -> String {
+    let all = Grid::of(of_group(rows, "grid"));
+    if all.reports().next().is_none() {
+        return String::new();
+    }
+    let lines = margins(&all).into_iter().map(|margin| {
+        let three = [margin.plain, margin.acute].into_iter().flat_map(|spread| {
+            let count = spread.map_or(0, |spread| spread.count).to_string();
+            [
+                count,
+                degrees(spread.map(|s| s.least)),
+                degrees(spread.map(|s| s.median)),
+            ]
+        });
+        let bound = crate::quality::min_angle_bound_deg(margin.t);
+        [parameter(margin.t), degrees(bound)].into_iter().chain(three).collect()
+    });
+    let head = [
+        "t",
+        "asin(1/2 − t)",
+        "meshes",
+        "least margin",
+        "median",
+        "meshes, acute",
+        "least margin",
+        "median",
+    ];
+    "How far the smallest angle of a mesh lies above the bound for its effective t (which is smaller than t where the \
+     spacing's own Lipschitz constant is), for domains without angles under 90° between segments, and for the others \
+     (acute). Triangles at input angles under 60° are left out; the bound is 0 from t = 1/2 on.\n\n"
+        .to_string()
+        + &table(&head, &lines.collect::<Vec<_>>())
+}
+
+/// Between what bounds the two ratios lie.
+pub(super) fn size_finding(rows: &[Row]) -> Option<String> {
+    let (title, grid) = grids(rows).into_iter().next()?;
+    let of = |value: fn(&Report) -> f64| spread(grid.reports().map(|(_, report)| value(report)).collect());
+    let (by_f, by_lfs, efficiency) = (
+        of(|r| r.size_ratio)?,
+        of(|r| r.size_ratio_lfs)?,
+        of(|r| r.size_efficiency)?,
+    );
+    Some(format!(
+        "**Size**, with spacing `{title}`. Triangles/∫dA/f² lie between {} and {}, times (√3/4)c_b² between {} and {} \
+         (median {}). Triangles/∫dA/lfs² lie between {} and {}.",
+        number(by_f.least),
+        number(by_f.most),
+        number(efficiency.least),
+        number(efficiency.most),
+        number(efficiency.median),
+        number(by_lfs.least),
+        number(by_lfs.most)
+    ))
+}
+
+/// Tables t × c_b of medians over domains.
+pub(super) fn sizes(rows: &[Row]) -> String {
+    let mut text = String::new();
+    for (index, (title, grid)) in grids(rows).iter().enumerate() {
+        text +=
+            &format!("Triangles/∫dA/f² with `{title}`, median over the measured domains (how many of how many):\n\n");
+        text += &t_by_c_b(grid, |report| report.size_ratio);
+        if index == 0 {
+            text += &format!("Triangles/∫dA/lfs² with `{title}`, likewise:\n\n");
+            text += &t_by_c_b(grid, |report| report.size_ratio_lfs);
+        }
+    }
+    text
+}
+
+/// A table with a line for each t and a column for each c_b.
+fn t_by_c_b(grid: &Grid, value: fn(&Report) -> f64) -> String {
+    let head: Vec<String> = grid
+        .c_bs
+        .iter()
+        .map(|c_b| format!("c_b = {}", parameter(*c_b)))
+        .collect();
+    let head: Vec<&str> = std::iter::once("t").chain(head.iter().map(String::as_str)).collect();
+    let cell = |t: f64, c_b: f64| {
+        let rows = grid.at(t, c_b);
+        let done = rows.iter().filter(|row| measured(row).is_some()).count();
+        match grid.median(t, c_b, value) {
+            Some(middle) if done == rows.len() => number(middle),
+            Some(middle) => format!("{} ({done} of {})", number(middle), rows.len()),
+            None => format!("– (0 of {})", rows.len()),
+        }
+    };
+    let line = |t: &f64| {
+        std::iter::once(parameter(*t))
+            .chain(grid.c_bs.iter().map(|c_b| cell(*t, *c_b)))
+            .collect()
+    };
+    table(&head, &grid.ts.iter().map(line).collect::<Vec<Vec<String>>>())
+}
+
+/// The smallest angles that users ask for, degrees.
+const ANGLES_DEG: [f64; 8] = [5.0, 10.0, 15.0, 20.0, 22.5, 25.0, 28.0, 30.0];
+
+fn pairs(rows: &[Row]) -> Vec<Pair> {
+    grids(rows).first().map(|(_, grid)| grid.pairs()).unwrap_or_default()
+}
+
+/// The pair with the fewest triangles for 20°.
+pub(super) fn fewest_finding(rows: &[Row]) -> Option<String> {
+    let pairs = pairs(rows);
+    let told = [15.0, 20.0, 25.0, 28.0].into_iter().filter_map(|angle| {
+        let pair = fewest(&pairs, angle)?;
+        let (t, c_b) = (parameter(pair.t), parameter(pair.c_b));
+        Some(format!(
+            "{angle}° by t = {t}, c_b = {c_b} ({} per ∫dA/lfs²)",
+            number(pair.size_ratio_lfs)
+        ))
+    });
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "**Fewest triangles for a smallest angle** on all domains: {}.",
+            told.join(", ")
+        )
+    })
+}
+
+/// The pair with the fewest triangles for each of some angles.
+pub(super) fn fewest_triangles(rows: &[Row]) -> String {
+    let pairs = pairs(rows);
+    let Some(domains) = pairs.iter().map(|pair| pair.domains).max() else {
+        return String::new();
+    };
+    let lines = ANGLES_DEG.iter().map(|angle| {
+        let pair = fewest(&pairs, *angle);
+        vec![
+            degrees(*angle),
+            pair.map_or("–".into(), |pair| parameter(pair.t)),
+            pair.map_or("–".into(), |pair| parameter(pair.c_b)),
+            degrees(pair.map(|pair| pair.smallest_angle_deg)),
+            number(pair.map(|pair| pair.size_ratio_lfs)),
+        ]
+    });
+    format!(
+        "Over {domains} domains, those without angles under 90° between segments as far as there are any, and over \
+         the {} pairs (t, c_b) for which all of these were measured.\n\n",
+        pairs.len()
+    ) + &table(
+        &[
+            "smallest angle at least",
+            "t",
+            "c_b",
+            "smallest angle",
+            "triangles/∫dA/lfs²",
+        ],
+        &lines.collect::<Vec<_>>(),
+    )
+}
+
+/// The order with the largest median of the mean smallest angle on each spacing, and what it costs.
+pub(super) fn order_finding(rows: &[Row]) -> Option<String> {
+    let findings = order_findings(&of_group(rows, "orders"));
+    let spacings = crate::experiment::summary::first_seen(findings.iter().map(|finding| finding.spacing.as_str()));
+    let told: Vec<String> = spacings
+        .into_iter()
+        .filter_map(|spacing| best_order(&findings, spacing))
+        .collect();
+    (!told.is_empty()).then(|| format!("**Best order of bites.** {}.", told.join("; ")))
+}
+
+fn best_order(findings: &[OrderFinding], spacing: &str) -> Option<String> {
+    let own = || findings.iter().filter(|finding| finding.spacing == spacing);
+    let top = |value: fn(&OrderFinding) -> Option<f64>| {
+        own()
+            .filter(|finding| value(finding).is_some())
+            .max_by(|a, b| value(a).unwrap_or(0.0).total_cmp(&value(b).unwrap_or(0.0)))
+    };
+    let (mean, smallest) = (top(|finding| finding.mean_deg)?, top(|finding| finding.smallest_deg)?);
+    let fastest = own()
+        .filter_map(|finding| finding.seconds_per_triangle)
+        .fold(f64::INFINITY, f64::min);
+    let cost = |finding: &OrderFinding| number(finding.seconds_per_triangle.map(|seconds| seconds / fastest));
+    Some(format!(
+        "With `{spacing}`: `{}` has the largest mean smallest angle ({}, at {} times the time of the fastest order), \
+         `{}` the largest smallest angle ({}, at {} times); medians over domains",
+        mean.order,
+        degrees(mean.mean_deg),
+        cost(mean),
+        smallest.order,
+        degrees(smallest.smallest_deg),
+        cost(smallest)
+    ))
+}
+
+/// Medians of each order and spacing, and where the order is best.
+pub(super) fn orders(rows: &[Row]) -> String {
+    let findings = order_findings(&of_group(rows, "orders"));
+    if findings.is_empty() {
+        return String::new();
+    }
+    let head = [
+        "spacing",
+        "order",
+        "measured",
+        "smallest angle",
+        "mean smallest angle",
+        "size efficiency",
+        "µs per triangle",
+        "best mean on",
+        "best smallest on",
+    ];
+    let line = |finding: &OrderFinding| {
+        vec![
+            finding.spacing.clone(),
+            finding.order.clone(),
+            format!("{} of {}", finding.measured, finding.asked),
+            degrees(finding.smallest_deg),
+            degrees(finding.mean_deg),
+            number(finding.efficiency),
+            number(finding.seconds_per_triangle.map(|seconds| 1e6 * seconds)),
+            finding.best_mean_on.join(", "),
+            finding.best_smallest_on.join(", "),
+        ]
+    };
+    "Medians over domains, at one t and c_b; the last columns name the domains on which no other order does better.\n\n"
+        .to_string()
+        + &table(&head, &findings.iter().map(line).collect::<Vec<_>>())
+}
+
+/// Slopes of log seconds against log triangles.
+pub(super) fn time_finding(rows: &[Row]) -> Option<String> {
+    let slopes = slopes(rows);
+    let whole = slopes.first()?;
+    let triangulation = slopes.iter().find(|step| step.name.contains("triangulation"));
+    let beside = triangulation.map(|step| format!(", that of the triangulation within it {}", number(step.slope)));
+    Some(format!(
+        "**Time** grows with triangles to the power {}{}; from {} to {} triangles, {} µs per triangle in the median.",
+        number(whole.slope),
+        beside.unwrap_or_default(),
+        number(whole.triangles.0),
+        number(whole.triangles.1),
+        number(whole.seconds_per_triangle.map(|seconds| 1e6 * seconds))
+    ))
+}
+
+/// Slope and time per triangle of each step.
+pub(super) fn time(rows: &[Row]) -> String {
+    let slopes = slopes(rows);
+    if slopes.is_empty() {
+        return String::new();
+    }
+    let timed: Vec<&Report> = of_group(rows, "time").into_iter().filter_map(measured).collect();
+    let spreads = of_group(rows, "time").into_iter().filter_map(|row| {
+        let spread = spread(row.samples.clone())?;
+        Some((spread.most - spread.least) / spread.median)
+    });
+    let lines = slopes.iter().map(|step| {
+        vec![
+            step.name.replace('_', " "),
+            number(step.slope),
+            number(step.seconds_per_triangle.map(|s| 1e6 * s)),
+        ]
+    });
+    format!(
+        "{} cells run alone, each time the median of its repeats; the range of the repeats is {} of their median in the \
+         median cell. Slopes are least-squares lines through the logarithms.\n\n",
+        timed.len(),
+        number(median(spreads.collect()))
+    ) + &table(&["step", "slope", "µs per triangle"], &lines.collect::<Vec<_>>())
+}
+
+/// How many certificates hold.
+pub(super) fn certificate_finding(rows: &[Row]) -> Option<String> {
+    let reports: Vec<&Report> = rows.iter().filter_map(measured).collect();
+    let holding = reports.iter().filter(|report| report.certificate.holds).count();
+    let forced = reports.iter().filter(|report| report.forced_pieces > 0).count();
+    (!reports.is_empty()).then(|| {
+        format!(
+            "**Certificate.** Every guaranteed check holds in {holding} of {} meshes. Boundary pieces that are no \
+             Delaunay edges had to be forced in {forced}.",
+            reports.len()
+        )
+    })
+}
+
+/// How often each claim held, and every cell in which one did not.
+pub(super) fn certificate(rows: &[Row]) -> String {
+    let tallies = claims(rows);
+    if tallies.is_empty() {
+        return String::new();
+    }
+    let of = |(count, held): (usize, usize)| {
+        if count == 0 {
+            "–".into()
+        } else {
+            format!("{held} of {count}")
+        }
+    };
+    let lines = tallies.iter().map(|tally| {
+        vec![
+            tally.claim.clone(),
+            tally.lemma.clone(),
+            of(tally.guaranteed),
+            of(tally.measured),
+        ]
+    });
+    let mut text =
+        "## Certificate\n\nIn how many meshes each claim held: where it is guaranteed (its hypotheses hold), and \
+         where it is only measured.\n\n"
+            .to_string();
+    text += &table(
+        &["claim", "paper", "held where guaranteed", "held elsewhere"],
+        &lines.collect::<Vec<_>>(),
+    );
+    for (applies, title) in [
+        (true, "Guaranteed checks that failed"),
+        (false, "Bounds broken where a hypothesis fails"),
+    ] {
+        let lines = broken_checks(rows, applies);
+        text += &format!("### {title}: {}\n\n", lines.len());
+        let head = [
+            "domain",
+            "spacing",
+            "t",
+            "effective t",
+            "c_b",
+            "claim",
+            "worst",
+            "bound",
+            "broken",
+            "at",
+            "input angle",
+            "segment angle",
+            "forced pieces",
+        ];
+        if !lines.is_empty() {
+            text += &table(&head, &lines[..lines.len().min(MOST_LINES)]);
+        }
+        if lines.len() > MOST_LINES {
+            text += &format!("and {} more in `rows.jsonl`.\n\n", lines.len() - MOST_LINES);
+        }
+    }
+    text
+}
