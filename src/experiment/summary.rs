@@ -142,17 +142,23 @@ impl<'a> Grid<'a> {
         median(self.at(t, c_b).into_iter().filter_map(measured).map(value).collect())
     }
 
+    /// The same without the domains that have acute angles, as far as their reports tell.
+    pub fn without_acute(&self) -> Self {
+        let reports = self.reports().filter(|(_, report)| is_acute(report));
+        let acute = first_seen(reports.map(|(row, _)| row.cell.domain.as_str()));
+        Self::of(
+            self.rows
+                .iter()
+                .copied()
+                .filter(|row| !acute.contains(&row.cell.domain.as_str())),
+        )
+    }
+
     /// One summary for each (t, c_b) of which every row was measured: a pair that lost its large domains would look
-    /// better or worse than it is. Domains with acute angles are left out, unless there are no others.
+    /// better or worse than it is.
     pub fn pairs(&self) -> Vec<Pair> {
-        let acute = |row: &Row| {
-            let same = |(other, report): (&Row, &Report)| other.cell.domain == row.cell.domain && is_acute(report);
-            self.reports().any(same)
-        };
-        let plain = Self::of(self.rows.iter().copied().filter(|row| !acute(row)));
-        let chosen = if plain.rows.is_empty() { self.clone() } else { plain };
-        let all = chosen.ts.iter().flat_map(|t| chosen.c_bs.iter().map(|c_b| (*t, *c_b)));
-        all.filter_map(|(t, c_b)| chosen.pair(t, c_b)).collect()
+        let all = self.ts.iter().flat_map(|t| self.c_bs.iter().map(|c_b| (*t, *c_b)));
+        all.filter_map(|(t, c_b)| self.pair(t, c_b)).collect()
     }
 
     fn pair(&self, t: f64, c_b: f64) -> Option<Pair> {

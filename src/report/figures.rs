@@ -90,9 +90,10 @@ fn draw_grid(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
     charts::against_t(first, charts::SIZE_RATIO_LFS, &stem)?;
     let caption = "Size efficiency of each mesh against t / c_b; the dashed lines hold for constant f.";
     charts::efficiency(&grids, &drawer.next(Section::Size, "efficiency", caption))?;
-    let pairs = first[0].1.pairs();
+    let pairs = first[0].1.without_acute().pairs();
     if !pairs.is_empty() {
-        let caption = "Triangles against smallest angle for each t and c_b; no pair beats the filled ones in both.";
+        let caption = "Triangles against smallest angle for each t and c_b, on domains without angles under 90° between segments; \
+                       no pair beats the filled ones in both.";
         charts::size_for_angle(&pairs, &drawer.next(Section::Fewest, "size-for-angle", caption))?;
     }
     Ok(())

@@ -33,12 +33,20 @@ pub(super) fn plain(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 
-/// A table; every line has as many cells as `head`. Columns after the first are set to the right.
+/// A table; every line has as many cells as `head`. Columns of numbers are set to the right.
 pub(super) fn table(head: &[&str], lines: &[Vec<String>]) -> String {
     let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-    let rule = (0..head.len()).map(|k| if k == 0 { "---".to_string() } else { "---:".to_string() });
-    let mut text = row(head.iter().map(|cell| cell.to_string()).collect());
-    text += &row(rule.collect());
+    let numeric =
+        |text: &String| text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit() || "–-(".contains(c));
+    let rule = (0..head.len()).map(|k| {
+        if lines.iter().all(|line| numeric(&line[k])) {
+            "---:"
+        } else {
+            "---"
+        }
+    });
+    let mut text = row(head.iter().map(|cell| plain(cell)).collect());
+    text += &row(rule.map(str::to_string).collect());
     for line in lines {
         text += &row(line.iter().map(|cell| plain(cell)).collect());
     }

@@ -11,6 +11,8 @@ mod sections;
 
 #[cfg(test)]
 mod fixture;
+#[cfg(test)]
+mod tests;
 
 use crate::charts::ChartError;
 use crate::experiment::plan::Plan;

@@ -1,8 +1,8 @@
 //! `README.md` of a results folder: what was run, what came out, the charts.
 
 use super::figures::{Chart, Section};
-use super::findings::{grids, of_group, tally};
-use super::markdown::{number, plain, table};
+use super::findings::{grids, of_group, spread, tally};
+use super::markdown::{number, parameter, plain, table};
 use super::sections;
 use crate::experiment::record::{Outcome, Row};
 use crate::experiment::summary::{first_seen, measured, quantile};
@@ -93,7 +93,13 @@ fn what_was_run(rows: &[Row], name: &str) -> String {
     text += &table(&head("group of cells"), &by_group);
     text += &table(&head("domain"), &by_domain.collect::<Vec<_>>());
     for (title, grid) in grids(rows) {
-        let values = |values: &[f64]| values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(", ");
+        let values = |values: &[f64]| {
+            values
+                .iter()
+                .map(|value| parameter(*value))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
         text += &format!(
             "Grid with `{title}`: t = {}; c_b = {}.\n\n",
             values(&grid.ts),
@@ -156,10 +162,21 @@ pub(super) const MOST_LINES: usize = 40;
 /// Cells that did not end measured, with reasons; skipped ones only as a count.
 fn unmeasured(rows: &[Row]) -> String {
     let total = tally(rows);
+    let skipped = rows.iter().filter(|row| row.outcome == Outcome::Skipped);
+    let expected = spread(skipped.map(|row| row.estimated_triangles).collect());
+    let expected = expected.map(|spread| {
+        let (least, most) = (number(spread.least), number(spread.most));
+        format!(" ({least} to {most} triangles expected, more than the budget allows)")
+    });
     let mut text = format!(
-        "## Cells not measured\n\nSkipped {} of {}, since more triangles were expected than the budget allows. \
-         Declined {} of {}. Failed {} of {}.\n\n",
-        total.skipped, total.cells, total.declined, total.cells, total.failed, total.cells
+        "## Cells not measured\n\nSkipped {} of {}{}. Declined {} of {}. Failed {} of {}.\n\n",
+        total.skipped,
+        total.cells,
+        expected.unwrap_or_default(),
+        total.declined,
+        total.cells,
+        total.failed,
+        total.cells
     );
     let ended = rows
         .iter()

@@ -132,60 +132,67 @@ fn t_by_c_b(grid: &Grid, value: fn(&Report) -> f64) -> String {
 /// The smallest angles that users ask for, degrees.
 const ANGLES_DEG: [f64; 8] = [5.0, 10.0, 15.0, 20.0, 22.5, 25.0, 28.0, 30.0];
 
-fn pairs(rows: &[Row]) -> Vec<Pair> {
-    grids(rows).first().map(|(_, grid)| grid.pairs()).unwrap_or_default()
+/// The pairs over domains without acute angles, and over all domains.
+fn pairs(rows: &[Row]) -> [Vec<Pair>; 2] {
+    match grids(rows).first() {
+        Some((_, grid)) => [grid.without_acute().pairs(), grid.pairs()],
+        None => Default::default(),
+    }
 }
 
-/// The pair with the fewest triangles for 20°.
+/// The pairs with the fewest triangles for some angles.
 pub(super) fn fewest_finding(rows: &[Row]) -> Option<String> {
-    let pairs = pairs(rows);
+    let [plain, _] = pairs(rows);
     let told = [15.0, 20.0, 25.0, 28.0].into_iter().filter_map(|angle| {
-        let pair = fewest(&pairs, angle)?;
+        let pair = fewest(&plain, angle)?;
         let (t, c_b) = (parameter(pair.t), parameter(pair.c_b));
-        Some(format!(
-            "{angle}° by t = {t}, c_b = {c_b} ({} per ∫dA/lfs²)",
-            number(pair.size_ratio_lfs)
-        ))
+        let size = number(pair.size_ratio_lfs);
+        Some(format!("{angle}° by t = {t}, c_b = {c_b} ({size} per ∫dA/lfs²)"))
     });
     let told: Vec<String> = told.collect();
+    let domains = plain.iter().map(|pair| pair.domains).max()?;
     (!told.is_empty()).then(|| {
-        format!(
-            "**Fewest triangles for a smallest angle** on all domains: {}.",
-            told.join(", ")
-        )
+        let told = told.join(", ");
+        format!("**Fewest triangles for a smallest angle**, on {domains} domains without angles under 90°: {told}.")
     })
 }
 
-/// The pair with the fewest triangles for each of some angles.
+/// The pair with the fewest triangles for each of some angles, without acute domains and with them.
 pub(super) fn fewest_triangles(rows: &[Row]) -> String {
-    let pairs = pairs(rows);
-    let Some(domains) = pairs.iter().map(|pair| pair.domains).max() else {
-        return String::new();
-    };
+    let titles = [
+        "domains without angles under 90° between segments",
+        "domains, triangles at input angles under 60° left out",
+    ];
+    let parts = pairs(rows)
+        .into_iter()
+        .zip(titles)
+        .filter(|(pairs, _)| !pairs.is_empty());
+    parts.map(|(pairs, title)| fewest_table(&pairs, title)).collect()
+}
+
+fn fewest_table(pairs: &[Pair], title: &str) -> String {
+    let domains = pairs.iter().map(|pair| pair.domains).max().unwrap_or(0);
     let lines = ANGLES_DEG.iter().map(|angle| {
-        let pair = fewest(&pairs, *angle);
+        let pair = fewest(pairs, *angle);
         vec![
-            degrees(*angle),
+            format!("{angle}°"),
             pair.map_or("–".into(), |pair| parameter(pair.t)),
             pair.map_or("–".into(), |pair| parameter(pair.c_b)),
             degrees(pair.map(|pair| pair.smallest_angle_deg)),
             number(pair.map(|pair| pair.size_ratio_lfs)),
         ]
     });
+    let head = [
+        "smallest angle at least",
+        "t",
+        "c_b",
+        "smallest angle",
+        "triangles/∫dA/lfs²",
+    ];
     format!(
-        "Over {domains} domains, those without angles under 90° between segments as far as there are any, and over \
-         the {} pairs (t, c_b) for which all of these were measured.\n\n",
+        "{domains} {title}; of the {} pairs (t, c_b) for which all of these were measured:\n\n",
         pairs.len()
-    ) + &table(
-        &[
-            "smallest angle at least",
-            "t",
-            "c_b",
-            "smallest angle",
-            "triangles/∫dA/lfs²",
-        ],
-        &lines.collect::<Vec<_>>(),
-    )
+    ) + &table(&head, &lines.collect::<Vec<_>>())
 }
 
 /// The order with the largest median of the mean smallest angle on each spacing, and what it costs.
@@ -253,9 +260,16 @@ pub(super) fn orders(rows: &[Row]) -> String {
             finding.best_smallest_on.join(", "),
         ]
     };
-    "Medians over domains, at one t and c_b; the last columns name the domains on which no other order does better.\n\n"
-        .to_string()
-        + &table(&head, &findings.iter().map(line).collect::<Vec<_>>())
+    let alone = of_group(rows, "orders").iter().all(|row| row.cell.timed);
+    let caution = if alone {
+        ""
+    } else {
+        " Cells ran beside one another, so their times are rough."
+    };
+    format!(
+        "Medians over domains, at one t and c_b; the last columns name the domains on which no other order does \
+         better.{caution}\n\n"
+    ) + &table(&head, &findings.iter().map(line).collect::<Vec<_>>())
 }
 
 /// Slopes of log seconds against log triangles.
