@@ -1,8 +1,54 @@
 //! The command line: one file per verb. The library never prints; this layer does.
+//!
+//! Exit status: 0 done; 1 a guaranteed check or an expectation failed; 2 bad usage or bad input; 3 nothing could be
+//! measured; 4 declined, or stopped by a budget.
 
+use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Parses the arguments, runs the verb and turns its outcome into the exit status of `design.md`.
+mod check;
+mod exit;
+mod list;
+mod mesh;
+mod output;
+mod progress;
+mod report;
+mod sweep;
+mod values;
+
+/// Provably good triangle meshes by biting circles off an advancing front, and the experiment about them.
+#[derive(Parser)]
+#[command(name = "biting", version, about, max_term_width = 110)]
+struct Arguments {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Run an experiment: mesh, judge and record every cell, then draw charts and write the page
+    Sweep(sweep::Arguments),
+    /// Make one mesh
+    Mesh(Box<mesh::Arguments>),
+    /// Judge a mesh from anywhere
+    Check(check::Arguments),
+    /// Make charts and pages again from the rows alone
+    Report(report::Arguments),
+    /// List domains, meshers with parameters, spacings and experiments
+    List,
+}
+
+/// Parses the arguments, runs the verb and turns its outcome into the exit status.
 pub fn main() -> ExitCode {
-    ExitCode::SUCCESS
+    let outcome = match Arguments::parse().verb {
+        Verb::Sweep(arguments) => sweep::run(&arguments),
+        Verb::Mesh(arguments) => mesh::run(&arguments),
+        Verb::Check(arguments) => check::run(&arguments),
+        Verb::Report(arguments) => report::run(&arguments),
+        Verb::List => list::run(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.tell(),
+    }
 }

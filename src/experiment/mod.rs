@@ -1,7 +1,17 @@
 //! Plans (TOML), the runner and the rows it leaves.
+//!
+//! [`plan`] reads an experiment's cells, [`work`] gathers those with one mesh, [`runner`] runs them by [`measure`] on what
+//! [`prepare`] made, [`journal`] keeps the rows, [`expect`] holds them against what was expected.
 
+pub mod expect;
+mod gate;
+pub mod journal;
 pub mod machine;
+pub mod measure;
 pub mod plan;
+pub mod prepare;
 pub mod record;
+pub mod runner;
 pub mod series;
 pub mod summary;
+pub mod work;

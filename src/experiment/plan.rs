@@ -87,6 +87,8 @@ impl Default for CellBudget {
 pub struct Expectations {
     /// Whether every check that applies must hold in every measured cell.
     pub certificate_holds: bool,
+    /// Where no input angle is under 90° and t is at most this, every check must hold, also those that do not apply.
+    pub certificate_whole_up_to_t: Option<Number>,
     /// The least share of cells that must be measured.
     pub measured_share: f64,
     /// The least number of measured cells of some domains.
@@ -154,23 +156,34 @@ fn three() -> usize {
 }
 
 /// A number, or a fraction in quotes, since TOML cannot write 1/3.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-enum Number {
-    Float(f64),
-    Integer(i64),
-    Fraction(String),
-}
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "Written")]
+pub struct Number(f64);
 
 impl Number {
-    fn value(&self) -> Result<f64, String> {
-        let value = match self {
-            Self::Float(value) => *value,
-            Self::Integer(value) => *value as f64,
-            Self::Fraction(text) => fraction(text).ok_or_else(|| format!("`{text}` is no number such as \"1/3\""))?,
+    /// Its value, positive and finite.
+    pub fn get(self) -> f64 {
+        self.0
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Number(f64),
+    Text(String),
+}
+
+impl TryFrom<Written> for Number {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Self, String> {
+        let value = match written {
+            Written::Number(value) => value,
+            Written::Text(text) => fraction(&text).ok_or_else(|| format!("`{text}` is no number such as \"1/3\""))?,
         };
         if value.is_finite() && value > 0.0 {
-            Ok(value)
+            Ok(Self(value))
         } else {
             Err(format!("{value} must be positive and finite"))
         }
@@ -304,8 +317,6 @@ impl Group {
     }
 
     fn cells(&self, budget: CellBudget) -> Result<Vec<PlannedCell>, String> {
-        let numbers = |list: &[Number]| list.iter().map(Number::value).collect::<Result<Vec<_>, _>>();
-        let (t_values, c_b_values) = (numbers(&self.t)?, numbers(&self.c_b)?);
         if self.timed && self.repeats == 0 {
             return Err("`repeats` must be at least 1".into());
         }
@@ -314,15 +325,15 @@ impl Group {
             for spacing in &self.spacings {
                 for params in &self.params {
                     for &seed in &self.seeds {
-                        for &t in &t_values {
-                            for &c_b in &c_b_values {
+                        for t in &self.t {
+                            for c_b in &self.c_b {
                                 let cell = Cell {
                                     domain: domain.clone(),
                                     mesher: self.mesher.clone(),
                                     params: params.clone(),
                                     spacing: spacing.clone(),
-                                    t,
-                                    c_b,
+                                    t: t.get(),
+                                    c_b: c_b.get(),
                                     seed,
                                     lfs_cap: self.lfs_cap,
                                     timed: self.timed,
@@ -363,3 +374,6 @@ fn key(group: &str, cell: &Cell) -> String {
     }
     key
 }
+
+#[cfg(test)]
+mod tests;

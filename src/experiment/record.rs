@@ -4,6 +4,9 @@ use crate::quality::{Certificate, Statistics};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
+/// The file of rows in an experiment's folder.
+pub const ROWS: &str = "rows.jsonl";
+
 /// Seconds, in all and by the paper's step names, in the order they ran.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {

@@ -1,0 +1,64 @@
+//! `list`: what there is to choose from.
+
+use super::exit::Outcome;
+use crate::domain::gallery;
+use crate::experiment::plan::Plan;
+use crate::meshers::MESHERS;
+use crate::spacing;
+use std::path::{Path, PathBuf};
+
+/// Where the experiments stand in a checkout.
+pub const EXPERIMENTS: &str = "experiments";
+
+pub fn run() -> Outcome {
+    println!("Domains");
+    println!(
+        "  {:<16} {:>8} {:>8} {:>9} {:>9}",
+        "", "vertices", "segments", "inside", "any side"
+    );
+    for entry in gallery::ENTRIES {
+        if let Some(Ok(domain)) = gallery::domain(entry.name) {
+            let (vertices, segments) = (domain.vertices().len(), domain.segments().len());
+            let (inside, any) = (domain.smallest_input_angle_deg(), domain.smallest_segment_angle_deg());
+            println!(
+                "  {:<16} {vertices:>8} {segments:>8} {inside:>8.1}° {any:>8.1}°  {}",
+                entry.name, entry.about
+            );
+        }
+    }
+    println!("  FILE.poly, FILE.geojson\n\nMeshers");
+    for entry in MESHERS {
+        println!("  {:<16} {}", entry.name, entry.summary);
+        for parameter in entry.parameters {
+            println!(
+                "    --param {}={}  {}",
+                parameter.name, parameter.default, parameter.help
+            );
+            println!("      one of: {}", parameter.values);
+        }
+    }
+    println!("\nSpacings");
+    for kind in spacing::KINDS {
+        println!("  {kind}");
+    }
+    println!("  in expressions {{x0}} {{y0}} {{w}} {{h}} stand for corner, width and height of the domain's box");
+    println!("\nExperiments");
+    for file in experiments() {
+        match Plan::read(&file) {
+            Ok(plan) => println!("  {:<28} {}", file.display(), plan.question.trim()),
+            Err(error) => println!("  {error}"),
+        }
+    }
+    Ok(())
+}
+
+/// The experiment files of this checkout, by name.
+fn experiments() -> Vec<PathBuf> {
+    let Ok(folder) = Path::new(EXPERIMENTS).read_dir() else {
+        return Vec::new();
+    };
+    let mut files: Vec<PathBuf> = folder.flatten().map(|entry| entry.path()).collect();
+    files.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    files.sort();
+    files
+}

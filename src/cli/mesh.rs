@@ -1,0 +1,198 @@
+//! `mesh DOMAIN`: one mesh, its files and its report.
+
+use super::exit::{Failure, Outcome};
+use super::output::{self, Target};
+use super::values::{bytes, parameter, positive};
+use crate::experiment::machine;
+use crate::experiment::measure;
+use crate::experiment::prepare::Store;
+use crate::experiment::record::{Cell, Report};
+use crate::experiment::runner;
+use crate::files::write_whole;
+use crate::meshers::{Budget, MeshError, Request};
+use crate::spacing;
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// The default of `--t`: see the page of findings in `results/sweep`.
+pub const DEFAULT_T: &str = "1/3";
+
+/// The default of `--c-b`: see the page of findings in `results/sweep`.
+pub const DEFAULT_C_B: &str = "1";
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// A gallery name (`biting list`) or a file (.poly, .geojson)
+    domain: String,
+    /// The method; `biting list` shows all
+    #[arg(long, default_value = "biting")]
+    mesher: String,
+    /// Control spacing f: lfs, uniform:H, expr:EXPRESSION in x and y, min(A, B)
+    #[arg(long, value_name = "SPEC", default_value = "lfs")]
+    spacing: String,
+    /// Edge length wanted, an expression in x and y, in place of --spacing (f = size / c_b)
+    #[arg(long, value_name = "EXPRESSION", conflicts_with = "spacing")]
+    size: Option<String>,
+    /// t = alpha c_b: the spacing is limited to the Lipschitz constant t / c_b
+    #[arg(long, value_parser = positive, default_value = DEFAULT_T)]
+    t: f64,
+    /// Biting constant: edges are about c_b f long
+    #[arg(long, value_parser = positive, default_value = DEFAULT_C_B)]
+    c_b: f64,
+    /// Seed of everything random
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Threads a mesher may use; the mesh does not depend on it [default: all cores]
+    #[arg(long)]
+    threads: Option<usize>,
+    /// A parameter of the mesher, name=value; may be repeated
+    #[arg(long, value_name = "NAME=VALUE", value_parser = parameter)]
+    param: Vec<(String, Value)>,
+    /// A mesh file by its ending (.node .vtu .msh .obj .svg .png .json), the domain itself (.poly), or - for JSON on
+    /// standard output; may be repeated
+    #[arg(long, value_name = "FILE")]
+    out: Vec<String>,
+    /// Where to write the report
+    #[arg(long, value_name = "FILE.json")]
+    report: Option<PathBuf>,
+    /// Mend what can be mended in a domain file, and say what was changed
+    #[arg(long)]
+    repair: bool,
+    /// Most vertices a mesh may have
+    #[arg(long, value_name = "N")]
+    max_vertices: Option<usize>,
+    /// Most seconds the mesher may take
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    max_seconds: Option<f64>,
+    /// Most memory of the process, such as 4G
+    #[arg(long, value_name = "BYTES", value_parser = bytes)]
+    max_memory: Option<u64>,
+    /// Do not cap the spacing by local feature size; the bounds of the paper no longer apply
+    #[arg(long)]
+    no_lfs_cap: bool,
+    /// How close limiting comes to the largest spacing it could keep, below 1 [default: 0.9]
+    #[arg(long, value_name = "SHARE", value_parser = positive)]
+    limit_factor: Option<f64>,
+}
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    let targets = arguments
+        .out
+        .iter()
+        .map(|text| Target::parse(text))
+        .collect::<Result<Vec<_>, _>>()?;
+    let cell = arguments.cell()?;
+    let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
+    let store = Store::new(arguments.limit_factor, arguments.repair);
+    let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
+    for note in prepared.site.domain.notes() {
+        eprintln!("note: {note}");
+    }
+    let run = measure::run(&prepared, &*mesher, &arguments.request()).map_err(|error| match error {
+        MeshError::Budget { .. } | MeshError::Declined(_) => Failure::Declined(error.to_string()),
+        MeshError::Spacing { .. } | MeshError::Triangulation(_) => Failure::input(error),
+    })?;
+    let report = measure::judge(&prepared, &cell, entry, &run, &machine::provenance());
+    let mut written = Vec::new();
+    for target in &targets {
+        written.extend(output::write(target, &prepared.site.domain, &run.mesh)?);
+    }
+    if let Some(path) = &arguments.report {
+        let text = serde_json::to_string_pretty(&report).map_err(Failure::input)?;
+        write_whole(path, text.as_bytes()).map_err(|cause| Failure::Input(format!("{}: {cause}", path.display())))?;
+        written.push(path.clone());
+    }
+    let mut lines = summary(&report);
+    lines.extend(written.iter().map(|path| format!("wrote {}", path.display())));
+    if targets.contains(&Target::Stdout) {
+        // Standard output carries the mesh.
+        eprintln!("{}", lines.join("\n"));
+    } else {
+        println!("{}", lines.join("\n"));
+    }
+    output::verdict(&report.certificate)
+}
+
+impl Arguments {
+    fn cell(&self) -> Result<Cell, Failure> {
+        let spacing = match &self.size {
+            Some(size) => spacing::spec_for_size(size, self.c_b).map_err(Failure::input)?,
+            None => self.spacing.clone(),
+        };
+        Ok(Cell {
+            domain: self.domain.clone(),
+            mesher: self.mesher.clone(),
+            params: self.param.iter().cloned().collect(),
+            spacing,
+            t: self.t,
+            c_b: self.c_b,
+            seed: self.seed,
+            lfs_cap: !self.no_lfs_cap,
+            timed: false,
+        })
+    }
+
+    fn request(&self) -> Request {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        Request {
+            c_b: self.c_b,
+            seed: self.seed,
+            threads: self.threads.unwrap_or_else(cores).max(1),
+            budget: Budget {
+                max_vertices: self.max_vertices,
+                max_seconds: self.max_seconds,
+                max_memory: self.max_memory,
+            },
+        }
+    }
+}
+
+/// A report in a few lines.
+fn summary(report: &Report) -> Vec<String> {
+    let statistics = &report.statistics;
+    let params: Vec<String> = report
+        .params
+        .iter()
+        .map(|(name, value)| {
+            format!(
+                "{name} {}",
+                value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+            )
+        })
+        .collect();
+    let sharp = match statistics.min_angle_free_deg {
+        Some(free) if statistics.excused > 0 => {
+            format!(
+                "; {free:.2}° without the {} triangles at input angles under 60°",
+                statistics.excused
+            )
+        }
+        _ => String::new(),
+    };
+    vec![
+        format!(
+            "{}: {} triangles, {} vertices in {:.3} s by {} ({}), spacing {}, t = {:.4} (effective {:.4}), c_b = {:.4}",
+            report.domain,
+            statistics.triangles,
+            statistics.vertices,
+            report.seconds.total,
+            report.mesher,
+            params.join(", "),
+            report.spacing,
+            report.t,
+            report.t_effective,
+            report.c_b
+        ),
+        format!(
+            "angles: smallest {:.2}° (bound {:.2}°{sharp}), mean of the smallest {:.2}°, largest {:.2}°",
+            statistics.min_angle_deg,
+            report.min_angle_bound_deg,
+            statistics.mean_min_angle_deg,
+            statistics.max_angle_deg
+        ),
+        format!(
+            "size: {:.2} triangles / ∫dA/f², {:.2} triangles / ∫dA/lfs², efficiency {:.3}",
+            report.size_ratio, report.size_ratio_lfs, report.size_efficiency
+        ),
+    ]
+}

@@ -1,0 +1,101 @@
+//! Writing meshes by the ending of a file's name, and telling a certificate.
+
+use super::exit::{Failure, Outcome};
+use crate::domain::Domain;
+use crate::files::write_whole;
+use crate::mesh::{Mesh, files};
+use crate::quality::{Certificate, Check};
+use std::path::{Path, PathBuf};
+
+/// Where a mesh goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// JSON on standard output.
+    Stdout,
+    /// The domain itself, as Triangle reads it.
+    Poly(PathBuf),
+    /// A mesh file.
+    Mesh(PathBuf),
+}
+
+impl Target {
+    /// Reads `--out`; an ending no format has is told before any work is done.
+    pub fn parse(text: &str) -> Result<Self, Failure> {
+        let path = PathBuf::from(text);
+        let ending = path
+            .extension()
+            .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        match ending.as_deref() {
+            _ if text == "-" => Ok(Self::Stdout),
+            Some("poly") => Ok(Self::Poly(path)),
+            _ if files::Format::of(&path).is_some() => Ok(Self::Mesh(path)),
+            _ => Err(Failure::Input(format!(
+                "--out {text}: no format has this ending; use .node, .vtu, .msh, .obj, .svg, .json, .poly or -"
+            ))),
+        }
+    }
+}
+
+/// Writes the mesh and gives the files that are now there.
+pub fn write(target: &Target, domain: &Domain, mesh: &Mesh) -> Result<Vec<PathBuf>, Failure> {
+    let refused = |path: &Path, cause: std::io::Error| Failure::Input(format!("{}: {cause}", path.display()));
+    match target {
+        Target::Stdout => {
+            println!("{}", files::json_text(mesh));
+            Ok(Vec::new())
+        }
+        Target::Poly(path) => {
+            write_whole(path, domain.to_poly().as_bytes()).map_err(|cause| refused(path, cause))?;
+            Ok(vec![path.clone()])
+        }
+        Target::Mesh(path) => {
+            files::write(mesh, path).map_err(Failure::input)?;
+            match files::Format::of(path) {
+                Some(files::Format::Triangle) => Ok(vec![path.with_extension("node"), path.with_extension("ele")]),
+                _ => Ok(vec![path.clone()]),
+            }
+        }
+    }
+}
+
+/// Ends the verb by what the certificate says.
+pub fn verdict(certificate: &Certificate) -> Outcome {
+    let broken: Vec<String> = certificate
+        .checks
+        .iter()
+        .filter(|check| check.applies && !check.holds)
+        .map(told)
+        .collect();
+    if certificate.holds {
+        let applying = certificate.checks.iter().filter(|check| check.applies).count();
+        eprintln!("certificate: {applying} checks apply and hold");
+        Ok(())
+    } else {
+        Err(Failure::Broken(format!(
+            "a guaranteed check failed: {}",
+            broken.join("; ")
+        )))
+    }
+}
+
+/// A check in words.
+pub fn told(check: &Check) -> String {
+    let number = |value: Option<f64>| value.map_or_else(|| "–".into(), |value| format!("{value:.6}"));
+    let place = check.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
+    let lemma = if check.lemma.is_empty() {
+        String::new()
+    } else {
+        format!(" ({})", check.lemma)
+    };
+    let broken = if check.broken > 0 {
+        format!(", {} broken", check.broken)
+    } else {
+        String::new()
+    };
+    format!(
+        "{}{lemma}: worst {} against {}{place}{broken}",
+        check.claim,
+        number(check.worst),
+        number(check.bound)
+    )
+}

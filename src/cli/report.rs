@@ -1,0 +1,18 @@
+//! `report`: charts and pages again, from the rows alone.
+
+use super::exit::{Failure, Outcome};
+use crate::report;
+use std::path::PathBuf;
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The experiment's folder, with its rows.jsonl
+    #[arg(default_value = "results/sweep")]
+    folder: PathBuf,
+}
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    let page = report::write(&arguments.folder).map_err(Failure::input)?;
+    println!("wrote {}", page.display());
+    Ok(())
+}

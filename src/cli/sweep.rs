@@ -1,0 +1,335 @@
+//! `sweep [EXPERIMENT.toml]`: the main job.
+
+use super::exit::{Failure, Outcome};
+use super::list::EXPERIMENTS;
+use super::progress::Progress;
+use super::values::bytes;
+use crate::experiment::expect::{anything_measured, findings};
+use crate::experiment::journal::{Journal, read_rows};
+use crate::experiment::machine;
+use crate::experiment::measure;
+use crate::experiment::plan::{Plan, PlannedCell};
+use crate::experiment::prepare::Store;
+use crate::experiment::record::{self, Provenance, Row};
+use crate::experiment::runner::{self, Sweep};
+use crate::experiment::work::{self, Shard, Task};
+use crate::files::write_whole;
+use crate::report;
+use std::path::{Path, PathBuf};
+
+/// Of the memory that is free when a sweep starts, cells that run side by side use at most this share.
+const MEMORY_SHARE: f64 = 0.6;
+
+/// Memory taken to be there where the system does not tell, bytes.
+const UNKNOWN_MEMORY: u64 = 2_000_000_000;
+
+/// Seconds of one core a triangle costs, mesh and certificate and spacing together, for the estimate of `--dry-run`:
+/// the committed sweep's, rounded up.
+const SECONDS_PER_TRIANGLE: f64 = 12e-6;
+
+#[derive(clap::Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    #[command(subcommand)]
+    part: Option<Part>,
+    #[command(flatten)]
+    place: Place,
+    /// Run only the small part of the experiment that its `quick` tables name, into a folder of its own
+    #[arg(long)]
+    quick: bool,
+    /// Start anew; rows that are there are kept under another name
+    #[arg(long)]
+    fresh: bool,
+    /// Print the cells and an estimate of the time, and run nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Run the I-th of N parts; `sweep merge` joins them
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+    /// Cells that run side by side [default: all cores]
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Memory that cells running side by side may use together, such as 4G [default: most of what is free]
+    #[arg(long, value_name = "BYTES", value_parser = bytes)]
+    max_memory: Option<u64>,
+}
+
+#[derive(clap::Subcommand)]
+enum Part {
+    /// Join the rows of all shards, then draw charts and write the page
+    Merge(Place),
+}
+
+#[derive(clap::Args)]
+struct Place {
+    /// The experiment [default: experiments/sweep.toml]
+    #[arg(value_name = "EXPERIMENT.toml")]
+    experiment: Option<PathBuf>,
+    /// Where the folders of results stand
+    #[arg(long, value_name = "FOLDER", default_value = "results")]
+    results: PathBuf,
+}
+
+impl Place {
+    fn plan(&self) -> Result<Plan, Failure> {
+        let default = || Path::new(EXPERIMENTS).join("sweep.toml");
+        Plan::read(&self.experiment.clone().unwrap_or_else(default)).map_err(Failure::input)
+    }
+}
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    if let Some(Part::Merge(place)) = &arguments.part {
+        return merge(&place.plan()?, &place.results);
+    }
+    let plan = arguments.place.plan()?;
+    let plan = if arguments.quick { plan.into_quick() } else { plan };
+    let cells = plan.cells().map_err(Failure::input)?;
+    for planned in &cells {
+        runner::mesher(&planned.cell)
+            .map_err(|problem| Failure::Input(format!("{}: {}: {problem}", plan.file.display(), planned.key)))?;
+    }
+    let store = Store::new(None, false);
+    if arguments.dry_run {
+        return dry_run(&plan, &cells, &tasks(&plan, &cells, &store)?, arguments.threads());
+    }
+    let folder = arguments.place.results.join(&plan.name);
+    let provenance = machine::provenance();
+    let rows_file = folder.join(rows_name(arguments.shard));
+    let mut journal = Journal::open(&rows_file).map_err(Failure::input)?;
+    if journal.cut_off > 0 {
+        eprintln!(
+            "{}: cut off {} bytes of an unfinished last line",
+            rows_file.display(),
+            journal.cut_off
+        );
+    }
+    start_anew_if_needed(arguments.fresh, &cells, &mut journal, &provenance)?;
+    arguments.run_pending(&plan, &cells, &store, &mut journal, &provenance)?;
+    journal
+        .settle(cells.iter().map(|planned| planned.key.as_str()))
+        .map_err(Failure::input)?;
+    if let Some(shard) = arguments.shard {
+        println!(
+            "shard {} of {} is done; `sweep merge` joins the shards",
+            shard.number, shard.of
+        );
+        return Ok(());
+    }
+    let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
+    finish(&plan, &folder, &rows)
+}
+
+impl Arguments {
+    fn threads(&self) -> usize {
+        self.threads
+            .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+            .max(1)
+    }
+
+    fn run_pending(
+        &self,
+        plan: &Plan,
+        cells: &[PlannedCell],
+        store: &Store,
+        journal: &mut Journal,
+        provenance: &Provenance,
+    ) -> Outcome {
+        let done = cells.iter().filter(|planned| runner::is_done(planned, journal)).count();
+        if done == cells.len() {
+            println!("all {done} cells have rows; --fresh measures them anew");
+            return Ok(());
+        }
+        let mut tasks = tasks(plan, cells, store)?;
+        if let Some(shard) = self.shard {
+            let all = tasks.into_iter().enumerate();
+            tasks = all.filter(|(at, _)| shard.has(*at)).map(|(_, task)| task).collect();
+        }
+        for task in &mut tasks {
+            task.units
+                .retain(|unit| !unit.cells.iter().all(|&cell| runner::is_done(&cells[cell], journal)));
+        }
+        tasks.retain(|task| !task.units.is_empty());
+        let units = || tasks.iter().flat_map(|task| &task.units);
+        let pending = units().map(|unit| unit.cells.len()).sum();
+        println!("{}: {pending} cells to run, {done} have rows", plan.name);
+        let available = || {
+            let free = machine::available_memory_bytes().unwrap_or(UNKNOWN_MEMORY);
+            (free as f64 * MEMORY_SHARE) as u64
+        };
+        let progress = Progress::new(pending, units().map(|unit| runner::weight(unit, cells)).sum());
+        let sweep = Sweep {
+            cells,
+            store,
+            provenance,
+            threads: self.threads(),
+            memory_bytes: self.max_memory.unwrap_or_else(available),
+            watch: &progress,
+        };
+        let ended = sweep.run(&tasks, journal);
+        progress.finish();
+        ended.map_err(Failure::input)
+    }
+}
+
+/// Rows are resumed where an unfinished run on a machine like this one left them. Rows of another machine, or a whole
+/// set of rows by another version of the code, are kept under another name.
+fn start_anew_if_needed(fresh: bool, cells: &[PlannedCell], journal: &mut Journal, provenance: &Provenance) -> Outcome {
+    let reports = || journal.lines().iter().filter_map(|line| line.row.report.as_ref());
+    let complete = cells.iter().all(|planned| runner::is_done(planned, journal));
+    let elsewhere = reports().any(|report| !machine::same_machine(&report.provenance, provenance));
+    let other_code = reports().any(|report| report.provenance.commit != provenance.commit);
+    let reason = if fresh {
+        "--fresh"
+    } else if elsewhere {
+        "they were made on another machine"
+    } else if complete && other_code {
+        "they are complete and were made by another commit"
+    } else {
+        return Ok(());
+    };
+    if let Some(kept) = journal.set_aside(&provenance.date).map_err(Failure::input)? {
+        println!(
+            "starting anew ({reason}); the rows that were there are now {}",
+            kept.display()
+        );
+    }
+    Ok(())
+}
+
+fn tasks(plan: &Plan, cells: &[PlannedCell], store: &Store) -> Result<Vec<Task>, Failure> {
+    store.survey(cells.iter().map(|planned| &planned.cell));
+    work::tasks(cells, |cell| store.outlook(cell), measure::complete)
+        .map_err(|error| Failure::Input(format!("{}: {error}", plan.file.display())))
+}
+
+fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -> Outcome {
+    let (mut seconds, mut meshes, mut skipped) = (0.0, 0, 0);
+    for unit in tasks.iter().flat_map(|task| &task.units) {
+        let first = &cells[unit.cells[0]];
+        let weight = runner::weight(unit, cells);
+        let cores = if first.cell.timed { 1 } else { threads };
+        seconds += weight * SECONDS_PER_TRIANGLE / cores as f64;
+        let above = unit.guessed_triangles > first.budget.triangles;
+        (meshes, skipped) = (
+            meshes + usize::from(!above),
+            skipped + if above { unit.cells.len() } else { 0 },
+        );
+        for &cell in &unit.cells {
+            let verdict = if above { ", probably skipped" } else { "" };
+            println!(
+                "{}  about {:.0} triangles{verdict}",
+                cells[cell].key, unit.guessed_triangles
+            );
+        }
+    }
+    println!(
+        "{}: {} cells, {meshes} meshes, {skipped} cells probably skipped",
+        plan.name,
+        cells.len()
+    );
+    println!(
+        "about {:.0} s with {threads} side by side; the guess knows the spacing before limiting only",
+        seconds
+    );
+    Ok(())
+}
+
+fn rows_name(shard: Option<Shard>) -> String {
+    match shard {
+        Some(shard) => format!("rows.{}-of-{}.jsonl", shard.number, shard.of),
+        None => record::ROWS.into(),
+    }
+}
+
+/// Joins the rows of shards. Those of `rows.jsonl` are kept where no shard has them.
+fn merge(plan: &Plan, results: &Path) -> Outcome {
+    let folder = results.join(&plan.name);
+    let cells = plan.cells().map_err(Failure::input)?;
+    let shards = shard_files(&folder)?;
+    if shards.is_empty() {
+        return Err(Failure::Input(format!(
+            "{}: no rows of shards there; run `sweep --shard I/N`",
+            folder.display()
+        )));
+    }
+    let mut journal = Journal::open(&folder.join(record::ROWS)).map_err(Failure::input)?;
+    for file in &shards {
+        // Opening takes the lock: a shard that is still running is not merged half.
+        let shard = Journal::open(file).map_err(Failure::input)?;
+        for line in shard.lines() {
+            journal.append(line.clone()).map_err(Failure::input)?;
+        }
+        println!("{}: {} rows", file.display(), shard.lines().len());
+    }
+    journal
+        .settle(cells.iter().map(|planned| planned.key.as_str()))
+        .map_err(Failure::input)?;
+    let missing: Vec<&str> = cells
+        .iter()
+        .map(|planned| planned.key.as_str())
+        .filter(|key| journal.get(key).is_none())
+        .collect();
+    if let Some(first) = missing.first() {
+        let many = missing.len();
+        return Err(Failure::Input(format!(
+            "{many} cells have no row yet, such as {first}; run the missing shards, or `sweep` to run what is left"
+        )));
+    }
+    finish(
+        plan,
+        &folder,
+        &read_rows(&folder.join(record::ROWS)).map_err(Failure::input)?,
+    )
+}
+
+/// The rows of shards in a folder, by name.
+fn shard_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let listed = folder
+        .read_dir()
+        .map_err(|cause| Failure::Input(format!("{}: {cause}", folder.display())))?;
+    let is_shard = |path: &PathBuf| {
+        let name = path
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+            .unwrap_or_default();
+        let middle = name.strip_prefix("rows.").and_then(|rest| rest.strip_suffix(".jsonl"));
+        middle
+            .and_then(|middle| middle.replace("-of-", "/").parse::<Shard>().ok())
+            .is_some()
+    };
+    let mut files: Vec<PathBuf> = listed.flatten().map(|entry| entry.path()).filter(is_shard).collect();
+    files.sort();
+    Ok(files)
+}
+
+/// Charts, page and verdict, once every cell has a row.
+fn finish(plan: &Plan, folder: &Path, rows: &[Row]) -> Outcome {
+    let copy = folder.join("plan.toml");
+    write_whole(&copy, plan.text.as_bytes()).map_err(|cause| Failure::Input(format!("{}: {cause}", copy.display())))?;
+    if !anything_measured(rows) {
+        let reason = rows
+            .iter()
+            .find_map(|row| row.reason.as_deref())
+            .unwrap_or("no cell was run");
+        return Err(Failure::NothingMeasured(format!("nothing could be measured: {reason}")));
+    }
+    let page = report::write(folder).map_err(Failure::input)?;
+    println!("rows, charts and page: {}", page.display());
+    let findings = findings(&plan.expect, rows);
+    for finding in &findings {
+        println!(
+            "{} {}: {}",
+            if finding.holds { "held:  " } else { "BROKEN:" },
+            finding.expected,
+            finding.found
+        );
+    }
+    let broken = findings.iter().filter(|finding| !finding.holds).count();
+    if broken > 0 {
+        return Err(Failure::Broken(format!(
+            "{broken} of {} expectations broke; they are named above",
+            findings.len()
+        )));
+    }
+    Ok(())
+}

@@ -1,0 +1,115 @@
+//! What an experiment expected, held against its rows.
+
+use super::plan::Expectations;
+use super::record::{Outcome, Row};
+use super::summary;
+use serde::{Deserialize, Serialize};
+
+/// An expectation and how it came out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// What was expected, in words.
+    pub expected: String,
+    /// What came out, in words, with the keys of the rows that broke it.
+    pub found: String,
+    /// Whether it held.
+    pub holds: bool,
+}
+
+/// At most so many keys are named; the rows have them all.
+const NAMED: usize = 5;
+
+/// Holds every expectation of a plan against its rows, all of them finished.
+pub fn findings(expect: &Expectations, rows: &[Row]) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    if expect.certificate_holds {
+        findings.push(certificates(rows));
+    }
+    if let Some(largest_t) = &expect.certificate_whole_up_to_t {
+        findings.push(whole_certificates(rows, largest_t.get()));
+    }
+    if expect.measured_share > 0.0 {
+        let measured = count_measured(rows);
+        let share = measured as f64 / rows.len().max(1) as f64;
+        findings.push(Finding {
+            expected: format!(
+                "at least {:.0} % of the cells are measured",
+                100.0 * expect.measured_share
+            ),
+            found: format!("{measured} of {} ({:.1} %)", rows.len(), 100.0 * share),
+            holds: share >= expect.measured_share,
+        });
+    }
+    for (domain, &least) in &expect.measured_per_domain {
+        let measured = count_measured(rows.iter().filter(|row| &row.cell.domain == domain));
+        findings.push(Finding {
+            expected: format!("at least {least} cells of {domain} are measured"),
+            found: measured.to_string(),
+            holds: measured >= least,
+        });
+    }
+    findings
+}
+
+/// Whether anything was measured at all.
+pub fn anything_measured(rows: &[Row]) -> bool {
+    count_measured(rows) > 0
+}
+
+fn count_measured<'a>(rows: impl IntoIterator<Item = &'a Row>) -> usize {
+    rows.into_iter().filter(|row| row.outcome == Outcome::Measured).count()
+}
+
+fn certificates(rows: &[Row]) -> Finding {
+    let broken: Vec<String> = rows
+        .iter()
+        .filter_map(|row| {
+            let certificate = &summary::measured(row)?.certificate;
+            let claims = certificate.checks.iter().filter(|check| check.applies && !check.holds);
+            let claims: Vec<&str> = claims.map(|check| check.claim.as_str()).collect();
+            (!certificate.holds).then(|| format!("{} ({})", row.key, claims.join(", ")))
+        })
+        .collect();
+    Finding {
+        expected: "in every measured cell every check whose hypotheses hold, holds".into(),
+        found: told(&broken, count_measured(rows)),
+        holds: broken.is_empty(),
+    }
+}
+
+/// The paper's own setting: no input angle under 90°, t small. There every check must hold, whether its hypotheses were
+/// found to hold or not.
+fn whole_certificates(rows: &[Row], largest_t: f64) -> Finding {
+    let inside: Vec<_> = rows
+        .iter()
+        .filter_map(|row| Some((row, summary::measured(row)?)))
+        .filter(|(row, report)| !summary::is_acute(report) && row.cell.lfs_cap && report.t <= largest_t)
+        .collect();
+    let broken: Vec<String> = inside
+        .iter()
+        .filter_map(|(row, report)| {
+            let claims = report.certificate.checks.iter().filter(|check| !check.holds);
+            let claims: Vec<&str> = claims.map(|check| check.claim.as_str()).collect();
+            (!claims.is_empty()).then(|| format!("{} ({})", row.key, claims.join(", ")))
+        })
+        .collect();
+    Finding {
+        expected: format!("without input angles under 90° and with t ≤ {largest_t:.4} every check holds"),
+        found: told(&broken, inside.len()),
+        holds: broken.is_empty(),
+    }
+}
+
+fn told(broken: &[String], of: usize) -> String {
+    if broken.is_empty() {
+        return format!("so in all {of}");
+    }
+    let more = broken.len().saturating_sub(NAMED);
+    let named = broken[..broken.len() - more].join("; ");
+    let rest = if more > 0 {
+        format!("; and {more} more")
+    } else {
+        String::new()
+    };
+    format!("broken in {} of {of}: {named}{rest}", broken.len())
+}

@@ -1,0 +1,122 @@
+//! One mesh and all that is known of it: what `mesh` and `sweep` share.
+
+use super::machine;
+use super::prepare::Prepared;
+use super::record::{Cell, Provenance, Report, Seconds};
+use crate::mesh::Mesh;
+use crate::meshers::{self, Entry, MeshError, Mesher, Request, Trace};
+use crate::quality;
+use serde_json::{Map, Value};
+use std::time::Instant;
+
+/// A mesh as it came from its mesher, not yet judged.
+#[derive(Debug)]
+pub struct Run {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Seconds, in all and by step.
+    pub seconds: Seconds,
+    /// Counts the mesher reports of itself.
+    pub counts: Vec<(&'static str, f64)>,
+    /// Peak memory of the process by the end, bytes.
+    pub peak_rss_bytes: u64,
+}
+
+/// Meshes, and times that.
+///
+/// # Errors
+/// The mesher's.
+pub fn run(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Result<Run, MeshError> {
+    let mut trace = Trace::default();
+    let start = Instant::now();
+    let mesh = mesher.mesh(&prepared.site.domain, &*prepared.spacing, request, &mut trace)?;
+    let total = start.elapsed().as_secs_f64();
+    let mut steps = Map::new();
+    for (name, duration) in &trace.steps {
+        let before = steps.get(*name).and_then(Value::as_f64).unwrap_or(0.0);
+        steps.insert((*name).into(), Value::from(before + duration.as_secs_f64()));
+    }
+    let seconds = Seconds { total, steps };
+    Ok(Run {
+        mesh,
+        seconds,
+        counts: trace.counts,
+        peak_rss_bytes: machine::peak_rss_bytes(),
+    })
+}
+
+/// Everything about a mesh: statistics, certificate, and what made it.
+pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provenance: &Provenance) -> Report {
+    let (site, c_b) = (&*prepared.site, cell.c_b);
+    let t_effective = c_b * prepared.spacing.lipschitz();
+    let triangles = run.mesh.triangles.len() as f64;
+    let integral = prepared.integral.value;
+    let size_ratio = triangles / integral;
+    let bounds = prepared.bounds(c_b, entry.guarantees);
+    let (statistics, certificate) = quality::judge(&site.domain, &run.mesh, Some(&bounds));
+    Report {
+        domain: site.domain.name().into(),
+        mesher: entry.name.into(),
+        params: complete(cell),
+        spacing: prepared.spec.clone(),
+        t: cell.t,
+        t_effective,
+        c_b,
+        alpha: cell.t / c_b,
+        seed: cell.seed,
+        lfs_cap: prepared.lfs_cap,
+        smallest_input_angle_deg: site.domain.smallest_input_angle_deg(),
+        smallest_segment_angle_deg: site.domain.smallest_segment_angle_deg(),
+        forced_pieces: run.mesh.forced_pieces,
+        integral,
+        integral_error: prepared.integral.relative_error(),
+        integral_lfs: site.integral_lfs.value,
+        size_ratio,
+        size_ratio_lfs: triangles / site.integral_lfs.value,
+        size_efficiency: size_ratio * 0.25 * 3.0f64.sqrt() * c_b * c_b,
+        min_angle_bound_deg: quality::min_angle_bound_deg(t_effective),
+        fingerprint: fingerprint(&run.mesh),
+        statistics,
+        seconds: run.seconds.clone(),
+        peak_rss_bytes: run.peak_rss_bytes,
+        counts: run
+            .counts
+            .iter()
+            .map(|&(name, value)| (name.to_owned(), value))
+            .collect(),
+        certificate,
+        provenance: provenance.clone(),
+    }
+}
+
+/// All parameters of a cell's mesher: those it names, and the defaults of the rest.
+pub fn complete(cell: &Cell) -> Map<String, Value> {
+    let parameters = meshers::find(&cell.mesher).map_or(&[][..], |entry| entry.parameters);
+    let mut all: Map<String, Value> = parameters
+        .iter()
+        .map(|parameter| {
+            let default = serde_json::from_str(parameter.default);
+            (
+                parameter.name.to_owned(),
+                default.unwrap_or_else(|_| Value::from(parameter.default)),
+            )
+        })
+        .collect();
+    all.extend(cell.params.clone());
+    all
+}
+
+/// A hash of the mesh's points and triangles, bit by bit, in hexadecimal: FNV-1a of 64 bits over their words. Equal
+/// meshes have equal ones; different meshes different ones, but for chance.
+pub fn fingerprint(mesh: &Mesh) -> String {
+    let points = mesh
+        .points
+        .iter()
+        .flat_map(|point| [point.x.to_bits(), point.y.to_bits()]);
+    let corners = mesh.triangles.iter().flatten().map(|&corner| u64::from(corner));
+    let hash = points.chain(corners).fold(0xcbf2_9ce4_8422_2325u64, |hash, word| {
+        // Whole words instead of bytes; the rotation lets their high bits reach the low ones.
+        (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29)
+    });
+    format!("{hash:016x}")
+}

@@ -1,0 +1,89 @@
+use super::*;
+
+const PLAN: &str = r#"
+    question = "What comes out?"
+    [budget]
+    triangles = 1000
+    [expect]
+    certificate_holds = true
+    certificate_whole_up_to_t = "1/3"
+    measured_per_domain = { comb = 2 }
+    [[group]]
+    name = "grid"
+    domains = ["unit-square", "comb"]
+    spacings = ["lfs", "uniform:0.1"]
+    mesher = "biting"
+    t = [0.25, "1/3"]
+    c_b = [0.5, 1]
+    quick = { domains = ["comb"], t = [0.25] }
+    [[group]]
+    name = "time"
+    domains = ["unit-square"]
+    spacings = ["lfs"]
+    mesher = "biting"
+    params = [{ order = "fifo" }]
+    t = [0.25]
+    c_b = [1.0]
+    timed = true
+"#;
+
+fn read(text: &str) -> Result<Plan, PlanError> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("try.toml");
+    std::fs::write(&file, text).expect("written");
+    Plan::read(&file)
+}
+
+#[test]
+fn cells_are_all_combinations_in_order() {
+    let plan = read(PLAN).expect("a plan");
+    let cells = plan.cells().expect("cells");
+    assert_eq!((plan.name.as_str(), cells.len()), ("try", 17));
+    assert_eq!(cells[0].key, "grid/unit-square/lfs/biting/t=0.25/c_b=0.5");
+    assert_eq!(cells[3].cell.t, 1.0 / 3.0);
+    assert_eq!(
+        cells[16].key,
+        "time/unit-square/lfs/biting,order=fifo/t=0.25/c_b=1/timed"
+    );
+    assert_eq!((cells[0].repeats, cells[16].repeats), (1, 3));
+    assert_eq!(cells[0].budget.triangles, 1000.0);
+}
+
+#[test]
+fn quick_is_a_part_of_the_whole() {
+    let plan = read(PLAN).expect("a plan");
+    let whole: BTreeSet<String> = plan.cells().expect("cells").into_iter().map(|cell| cell.key).collect();
+    let quick = plan.into_quick();
+    let cells = quick.cells().expect("cells");
+    assert_eq!((quick.name.as_str(), cells.len()), ("try-quick", 4));
+    assert!(cells.iter().all(|cell| whole.contains(&cell.key)));
+    assert!(quick.expect.measured_per_domain.is_empty() && quick.expect.certificate_holds);
+}
+
+#[test]
+fn mistakes_are_named_with_file_and_place() {
+    for (from, to, expected) in [
+        (
+            "t = [0.25, \"1/3\"]",
+            "t = [0.25, \"a third\"]",
+            "`a third` is no number",
+        ),
+        ("t = [0.25, \"1/3\"]", "t = [0.25, -1]", "must be positive"),
+        ("t = [0.25, \"1/3\"]", "t = []", "group `grid` has an empty list"),
+        ("t = [0.25, \"1/3\"]", "t = [0.25, 0.25]", "twice"),
+        ("timed = true", "timd = true", "line 28"),
+        ("question", "qestion", "line 2"),
+        ("timed = true", "timed = true\nrepeats = 0", "at least 1"),
+    ] {
+        let message = read(&PLAN.replacen(from, to, 1)).expect_err(to).to_string();
+        assert!(
+            message.contains("try.toml: ") && message.contains(expected),
+            "{to}: {message}"
+        );
+    }
+    let missing = Plan::read(Path::new("no/such.toml")).expect_err("missing").to_string();
+    assert!(
+        missing.contains("no/such.toml") && missing.contains("biting list"),
+        "{missing}"
+    );
+}

@@ -1,0 +1,299 @@
+//! What cells share: domain, spacing, limited spacing, and their integrals, each made once.
+
+use super::record::Cell;
+use super::work::Outlook;
+use crate::domain::{self, Domain, DomainError};
+use crate::geometry::DVec2;
+use crate::quality::Bounds;
+use crate::spacing::{self, Options, Spacing, SpacingError};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Relative error asked of the integrals in rows.
+pub const INTEGRAL_ERROR: f64 = 1e-3;
+
+/// Why there is nothing to mesh.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum PrepareError {
+    /// The domain cannot be read or is not valid.
+    #[error(transparent)]
+    Domain(#[from] DomainError),
+    /// The spacing cannot be read or is not positive.
+    #[error("on {domain}: {cause}")]
+    Spacing {
+        /// Where.
+        domain: String,
+        /// What is wrong with it.
+        cause: SpacingError,
+    },
+}
+
+/// A domain with the integral of its local feature size.
+pub struct Site {
+    /// The domain.
+    pub domain: Arc<Domain>,
+    /// ∫ dA / lfs².
+    pub integral_lfs: Integral,
+}
+
+/// A spacing on a domain, capped by lfs if asked for, not limited.
+#[derive(Clone)]
+struct Base {
+    site: Arc<Site>,
+    spec: String,
+    lfs_cap: bool,
+    spacing: Arc<dyn Spacing>,
+    integral: Integral,
+}
+
+/// All a mesher and its judge need: domain, limited spacing, integral.
+#[derive(Clone)]
+pub struct Prepared {
+    /// Where.
+    pub site: Arc<Site>,
+    /// The spacing as asked for, with the numbers of this domain in it.
+    pub spec: String,
+    /// Whether f is nowhere above lfs.
+    pub lfs_cap: bool,
+    /// The spacing, limited.
+    pub spacing: Arc<dyn Spacing>,
+    /// ∫ dA / f² of that.
+    pub integral: Integral,
+}
+
+impl Prepared {
+    /// What a mesh is held against, if its method guarantees these claims.
+    pub fn bounds<'a>(&'a self, c_b: f64, guaranteed: &'a [&'a str]) -> Bounds<'a> {
+        Bounds {
+            spacing: &*self.spacing,
+            c_b,
+            lfs_cap: self.lfs_cap,
+            integral: Some(self.integral.value),
+            integral_error: self.integral.relative_error(),
+            guaranteed,
+        }
+    }
+}
+
+/// A value that several threads may ask for at once, made by the first.
+type Slot<T> = Arc<OnceLock<Result<T, PrepareError>>>;
+
+/// Values by name, each made once.
+struct Shelf<K, T> {
+    slots: Mutex<BTreeMap<K, Slot<T>>>,
+}
+
+impl<K: Ord, T: Clone> Shelf<K, T> {
+    fn new() -> Self {
+        Self {
+            slots: Mutex::new(BTreeMap::new()),
+        }
+    }
+
+    fn get(&self, key: K, make: impl FnOnce() -> Result<T, PrepareError>) -> Result<T, PrepareError> {
+        // The shelf is free again before the value is made: others can be made meanwhile.
+        let slot = self
+            .slots
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .entry(key)
+            .or_default()
+            .clone();
+        slot.get_or_init(make).clone()
+    }
+}
+
+/// Domains and spacings, kept for all cells of a sweep. Limited spacings are not kept: there are as many as values of α.
+pub struct Store {
+    limit_factor: Option<f64>,
+    repair: bool,
+    domains: Shelf<String, Arc<Domain>>,
+    sites: Shelf<String, Arc<Site>>,
+    bases: Shelf<(String, String, bool), Arc<Base>>,
+}
+
+impl Store {
+    /// An empty store. `limit_factor` is [`Options::limit_factor`], its default if absent; `repair` mends domain files.
+    pub fn new(limit_factor: Option<f64>, repair: bool) -> Self {
+        Self {
+            limit_factor,
+            repair,
+            domains: Shelf::new(),
+            sites: Shelf::new(),
+            bases: Shelf::new(),
+        }
+    }
+
+    /// The domain of that gallery name or file.
+    ///
+    /// # Errors
+    /// [`PrepareError::Domain`].
+    pub fn domain(&self, name: &str) -> Result<Arc<Domain>, PrepareError> {
+        self.domains.get(name.to_owned(), || Ok(Arc::new(domain::load(name)?)))
+    }
+
+    /// Makes the domains and spacings of all cells, side by side. What is wrong with one is told when it is asked for.
+    pub fn survey<'a>(&self, cells: impl IntoIterator<Item = &'a Cell>) {
+        let distinct: BTreeMap<_, &Cell> = cells
+            .into_iter()
+            .map(|cell| ((&cell.domain, &cell.spacing, cell.lfs_cap), cell))
+            .collect();
+        distinct
+            .into_values()
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .for_each(|cell| {
+                // The error stays on the shelf.
+                let _ = self.base(cell);
+            });
+    }
+
+    /// What is known of a cell's spacing before limiting.
+    ///
+    /// # Errors
+    /// [`PrepareError`].
+    pub fn outlook(&self, cell: &Cell) -> Result<Outlook, PrepareError> {
+        let base = self.base(cell)?;
+        Ok(Outlook {
+            lipschitz: base.spacing.lipschitz(),
+            integral: base.integral.value,
+        })
+    }
+
+    /// The cell's domain and spacing, limited to `alpha` if that is given.
+    ///
+    /// # Errors
+    /// [`PrepareError`].
+    pub fn prepare(&self, cell: &Cell, alpha: Option<f64>) -> Result<Prepared, PrepareError> {
+        let base = self.base(cell)?;
+        let (site, spec, lfs_cap) = (base.site.clone(), base.spec.clone(), base.lfs_cap);
+        let Some(alpha) = alpha else {
+            return Ok(Prepared {
+                site,
+                spec,
+                lfs_cap,
+                spacing: base.spacing.clone(),
+                integral: base.integral,
+            });
+        };
+        let refused = told(&site.domain);
+        let built = spacing::build(&spec, &site.domain, &self.options(cell, alpha)).map_err(&refused)?;
+        let spacing = built.function;
+        let integral = integrate(&site.domain, &*spacing, INTEGRAL_ERROR).map_err(&refused)?;
+        Ok(Prepared {
+            site,
+            spec,
+            lfs_cap,
+            spacing,
+            integral,
+        })
+    }
+
+    /// The cell's domain and spacing, limited as its t and c_b ask.
+    ///
+    /// # Errors
+    /// [`PrepareError`].
+    pub fn prepare_for_t(&self, cell: &Cell) -> Result<Prepared, PrepareError> {
+        let alpha = cell.t / cell.c_b;
+        self.prepare(cell, (alpha < self.outlook(cell)?.lipschitz).then_some(alpha))
+    }
+
+    fn options(&self, cell: &Cell, alpha: f64) -> Options {
+        let defaults = Options::with_alpha(alpha);
+        Options {
+            lfs_cap: cell.lfs_cap,
+            limit_factor: self.limit_factor.unwrap_or(defaults.limit_factor),
+            ..defaults
+        }
+    }
+
+    fn site(&self, name: &str) -> Result<Arc<Site>, PrepareError> {
+        self.sites.get(name.to_owned(), || {
+            let domain = self.domain(name)?;
+            let lfs = spacing::lfs_of(&domain).map_err(told(&domain))?;
+            let integral_lfs = integrate(&domain, &lfs, INTEGRAL_ERROR).map_err(told(&domain))?;
+            Ok(Arc::new(Site { domain, integral_lfs }))
+        })
+    }
+
+    fn base(&self, cell: &Cell) -> Result<Arc<Base>, PrepareError> {
+        let key = (cell.domain.clone(), cell.spacing.clone(), cell.lfs_cap);
+        self.bases.get(key, || {
+            let site = self.site(&cell.domain)?;
+            let spec = fill_in(&cell.spacing, &site.domain);
+            let options = self.options(cell, f64::INFINITY);
+            let built = spacing::build(&spec, &site.domain, &options).map_err(told(&site.domain))?;
+            let integral = if built.spec == "lfs" {
+                site.integral_lfs
+            } else {
+                integrate(&site.domain, &*built.function, INTEGRAL_ERROR).map_err(told(&site.domain))?
+            };
+            Ok(Arc::new(Base {
+                site,
+                spec: built.spec,
+                lfs_cap: built.lfs_cap,
+                spacing: built.function,
+                integral,
+            }))
+        })
+    }
+}
+
+fn told(domain: &Domain) -> impl Fn(SpacingError) -> PrepareError + use<> {
+    let domain = domain.name().to_owned();
+    move |cause| PrepareError::Spacing {
+        domain: domain.clone(),
+        cause,
+    }
+}
+
+/// Puts the domain's box into a spacing: `{x0}`, `{y0}` its lower left corner, `{w}`, `{h}` its width and height. One
+/// text can then stand for domains of any size.
+fn fill_in(spacing: &str, domain: &Domain) -> String {
+    let (corner, size) = (domain.bounds().min, domain.bounds().size());
+    [("{x0}", corner.x), ("{y0}", corner.y), ("{w}", size.x), ("{h}", size.y)]
+        .iter()
+        .fold(spacing.to_owned(), |text, (name, value)| {
+            text.replace(name, &format!("({value})"))
+        })
+}
+
+/// An integral with its estimated error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Integral {
+    /// Its value.
+    pub value: f64,
+    /// Estimated absolute error.
+    pub error: f64,
+}
+
+impl Integral {
+    /// Estimated relative error.
+    pub fn relative_error(self) -> f64 {
+        self.error / self.value
+    }
+}
+
+/// ∫_Ω dA / f² by the midpoint rule on a grid; the error is what halving the grid changes.
+fn integrate(domain: &Domain, spacing: &dyn Spacing, _tolerance: f64) -> Result<Integral, SpacingError> {
+    let (bounds, half) = (domain.bounds(), 150);
+    let sum = |count: usize| -> f64 {
+        let cells = (0..count * count).into_par_iter().map(|cell| {
+            let place = DVec2::new((cell % count) as f64 + 0.5, (cell / count) as f64 + 0.5) / count as f64;
+            let x = bounds.min + bounds.size() * place;
+            if domain.contains(x) {
+                spacing.at(x).powi(-2)
+            } else {
+                0.0
+            }
+        });
+        let size = bounds.size() / count as f64;
+        cells.collect::<Vec<f64>>().iter().sum::<f64>() * size.x * size.y
+    };
+    let (coarse, value) = (sum(half), sum(2 * half));
+    Ok(Integral {
+        value,
+        error: (value - coarse).abs(),
+    })
+}

@@ -1,0 +1,371 @@
+//! Runs the cells of a plan and appends a row for each.
+//!
+//! Cells that are only counted and measured run side by side, as far as their memory fits; timed cells run alone
+//! afterwards, their repeats interleaved so that a noisy minute does not fall on one of them.
+
+use super::gate::Gate;
+use super::journal::{Journal, JournalError, Line};
+use super::machine;
+use super::measure::{self, Run};
+use super::plan::PlannedCell;
+use super::prepare::{Prepared, Store};
+use super::record::{Cell, Outcome, Provenance, Report, Row};
+use super::summary;
+use super::work::{Task, Unit, expected_triangles};
+use crate::meshers::{self, Budget, Entry, MeshError, Mesher, Request};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Memory a cell needs for each triangle, spacing and certificate included: measured as peak memory over triangles,
+/// rounded up.
+const BYTES_PER_TRIANGLE: f64 = 1500.0;
+
+/// Vertices are about half as many as triangles; a mesher is stopped at this multiple of the expected triangles, far
+/// above any honest mesh.
+const VERTICES_PER_BUDGET_TRIANGLE: f64 = 2.0;
+
+/// Told of every row as it is written.
+pub trait Watch: Sync {
+    /// A row was written; `weight` is its unit's share of the work, given once a unit.
+    fn row(&self, row: &Row, weight: f64);
+}
+
+/// A sweep about to run.
+pub struct Sweep<'a> {
+    /// All cells of the plan.
+    pub cells: &'a [PlannedCell],
+    /// Domains and spacings.
+    pub store: &'a Store,
+    /// Written into every row.
+    pub provenance: &'a Provenance,
+    /// How many cells run side by side.
+    pub threads: usize,
+    /// Memory that cells running side by side may use together, bytes.
+    pub memory_bytes: u64,
+    /// Told of every row.
+    pub watch: &'a dyn Watch,
+}
+
+/// Triangles of work a unit stands for, skipped ones a little, so that progress is even.
+pub fn weight(unit: &Unit, cells: &[PlannedCell]) -> f64 {
+    // Skipping costs little; setting a cell up costs about as much as some thousand triangles.
+    const SKIPPED: f64 = 100.0;
+    const SET_UP: f64 = 3000.0;
+    let first = &cells[unit.cells[0]];
+    if unit.guessed_triangles > budget_triangles(unit, cells) {
+        SKIPPED
+    } else {
+        (SET_UP + unit.guessed_triangles) * first.repeats as f64
+    }
+}
+
+/// Whether the journal has a final row for that cell: skipped ones are run again when the budget has grown, timed ones
+/// when repeats are missing.
+pub fn is_done(planned: &PlannedCell, journal: &Journal) -> bool {
+    journal.get(&planned.key).is_some_and(|row| match row.outcome {
+        Outcome::Skipped => row.estimated_triangles > planned.budget.triangles,
+        Outcome::Measured => !planned.cell.timed || row.samples.len() >= planned.repeats,
+        Outcome::Declined | Outcome::Failed => true,
+    })
+}
+
+/// A unit's budget: cells of one mesh may stand in groups with different ones, and the largest counts.
+fn budget_triangles(unit: &Unit, cells: &[PlannedCell]) -> f64 {
+    unit.cells
+        .iter()
+        .map(|&cell| cells[cell].budget.triangles)
+        .fold(0.0, f64::max)
+}
+
+/// How a unit ended.
+struct Ending {
+    outcome: Outcome,
+    reason: Option<String>,
+    estimated_triangles: f64,
+    samples: Vec<f64>,
+    report: Option<Report>,
+}
+
+impl Ending {
+    fn without_report(outcome: Outcome, reason: String, estimated_triangles: f64) -> Self {
+        Self {
+            outcome,
+            reason: Some(reason),
+            estimated_triangles,
+            samples: Vec::new(),
+            report: None,
+        }
+    }
+}
+
+impl Sweep<'_> {
+    /// Runs `tasks` and appends their rows.
+    ///
+    /// # Errors
+    /// [`JournalError`] if a row cannot be written; the run stops then.
+    pub fn run(&self, tasks: &[Task], journal: &mut Journal) -> Result<(), JournalError> {
+        let (timed, untimed): (Vec<&Task>, Vec<&Task>) =
+            tasks.iter().partition(|task| self.cells[task.cell].cell.timed);
+        self.run_side_by_side(&untimed, journal)?;
+        self.run_alone(&timed, journal)
+    }
+
+    fn run_side_by_side(&self, tasks: &[&Task], journal: &mut Journal) -> Result<(), JournalError> {
+        let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let (gate, journal) = (Gate::new(self.memory_bytes), Mutex::new(journal));
+        let work = || -> Result<(), JournalError> {
+            while let Some(task) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
+                if stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                let written = self.task(task, &gate, &journal);
+                written.inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
+            }
+            Ok(())
+        };
+        std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..self.threads.max(1)).map(|_| scope.spawn(work)).collect();
+            workers.into_iter().try_for_each(|worker| match worker.join() {
+                Ok(written) => written,
+                Err(panic) => std::panic::resume_unwind(panic),
+            })
+        })
+    }
+
+    fn task(&self, task: &Task, gate: &Gate, journal: &Mutex<&mut Journal>) -> Result<(), JournalError> {
+        let mut prepared = None;
+        for unit in &task.units {
+            let limit = budget_triangles(unit, self.cells);
+            let ending = if unit.least_triangles > limit {
+                too_large(unit.least_triangles, limit)
+            } else {
+                let bytes = unit.guessed_triangles.min(limit) * BYTES_PER_TRIANGLE;
+                let _pass = gate.take(bytes as u64);
+                let prepared = prepared.get_or_insert_with(|| self.prepare(task));
+                self.first_run(unit, prepared.as_ref())
+            };
+            let mut journal = journal.lock().unwrap_or_else(PoisonError::into_inner);
+            self.write(unit, &ending, &mut journal, weight(unit, self.cells))?;
+        }
+        Ok(())
+    }
+
+    fn run_alone(&self, tasks: &[&Task], journal: &mut Journal) -> Result<(), JournalError> {
+        let prepared: Vec<_> = tasks.iter().map(|task| self.prepare(task)).collect();
+        let rounds = self.cells.iter().map(|planned| planned.repeats).max().unwrap_or(0);
+        for round in 0..rounds {
+            for (task, prepared) in tasks.iter().zip(&prepared) {
+                for unit in &task.units {
+                    let planned = &self.cells[unit.cells[0]];
+                    if round >= planned.repeats {
+                        continue;
+                    }
+                    let before = journal
+                        .get(&planned.key)
+                        .filter(|row| row.outcome == Outcome::Measured)
+                        .cloned();
+                    let ending = match before {
+                        Some(row) if row.samples.len() > round => continue,
+                        Some(row) => self.repeat(unit, prepared.as_ref(), row),
+                        // What did not come out in the first round is not tried again.
+                        None if round > 0 => continue,
+                        None => self.first_run(unit, prepared.as_ref()),
+                    };
+                    let share = weight(unit, self.cells) / planned.repeats as f64;
+                    self.write(unit, &ending, journal, share)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn prepare(&self, task: &Task) -> Result<Prepared, String> {
+        let cell = &self.cells[task.cell].cell;
+        guarded(|| self.store.prepare(cell, task.alpha).map_err(|error| error.to_string())).and_then(|inner| inner)
+    }
+
+    /// Runs a unit and judges its mesh.
+    fn first_run(&self, unit: &Unit, prepared: Result<&Prepared, &String>) -> Ending {
+        let planned = &self.cells[unit.cells[0]];
+        let prepared = match prepared {
+            Ok(prepared) => prepared,
+            Err(reason) => return Ending::without_report(Outcome::Failed, reason.clone(), unit.guessed_triangles),
+        };
+        let (limit, estimated) = (
+            budget_triangles(unit, self.cells),
+            expected_triangles(prepared.integral.value, planned.cell.c_b),
+        );
+        if estimated > limit {
+            return too_large(estimated, limit);
+        }
+        let attempt = guarded(|| {
+            let (entry, run) = self.mesh(planned, prepared, limit)?;
+            let report = measure::judge(prepared, &planned.cell, entry, &run, self.provenance);
+            Ok((report, run.seconds.total))
+        });
+        match attempt {
+            Ok(Ok((report, seconds))) => Ending {
+                outcome: Outcome::Measured,
+                reason: None,
+                estimated_triangles: estimated,
+                samples: if planned.cell.timed { vec![seconds] } else { Vec::new() },
+                report: Some(report),
+            },
+            Ok(Err((outcome, reason))) => Ending::without_report(outcome, reason, estimated),
+            Err(panic) => Ending::without_report(Outcome::Failed, panic, estimated),
+        }
+    }
+
+    /// One more timing of a unit that has been judged: the mesh must be the same, bit by bit.
+    fn repeat(&self, unit: &Unit, prepared: Result<&Prepared, &String>, row: Row) -> Ending {
+        let planned = &self.cells[unit.cells[0]];
+        let estimated = row.estimated_triangles;
+        let limit = budget_triangles(unit, self.cells);
+        let attempt = guarded(|| {
+            let prepared = prepared.map_err(|reason| (Outcome::Failed, reason.clone()))?;
+            Ok(self.mesh(planned, prepared, limit)?.1)
+        });
+        let (run, mut report) = match (attempt, row.report) {
+            (Ok(Ok(run)), Some(report)) => (run, report),
+            (Ok(Err((outcome, reason))), _) => return Ending::without_report(outcome, reason, estimated),
+            (Err(panic), _) => return Ending::without_report(Outcome::Failed, panic, estimated),
+            (_, None) => {
+                return Ending::without_report(Outcome::Failed, "row lost its report; use --fresh".into(), estimated);
+            }
+        };
+        let fingerprint = measure::fingerprint(&run.mesh);
+        if fingerprint != report.fingerprint {
+            let reason = format!(
+                "mesh {fingerprint} of a repeat differs from the first, {}",
+                report.fingerprint
+            );
+            return Ending::without_report(Outcome::Failed, reason, estimated);
+        }
+        let mut samples = row.samples;
+        samples.push(run.seconds.total);
+        take_median(&mut report, run, &samples);
+        Ending {
+            outcome: Outcome::Measured,
+            reason: None,
+            estimated_triangles: estimated,
+            samples,
+            report: Some(report),
+        }
+    }
+
+    fn mesh(
+        &self,
+        planned: &PlannedCell,
+        prepared: &Prepared,
+        limit: f64,
+    ) -> Result<(&'static Entry, Run), (Outcome, String)> {
+        let (entry, mesher) = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
+        let request = Request {
+            c_b: planned.cell.c_b,
+            seed: planned.cell.seed,
+            threads: 1,
+            budget: Budget {
+                max_vertices: Some((VERTICES_PER_BUDGET_TRIANGLE * limit) as usize),
+                max_seconds: Some(planned.budget.seconds),
+                max_memory: None,
+            },
+        };
+        if planned.cell.timed {
+            machine::reset_peak_rss();
+        }
+        let run = measure::run(prepared, &*mesher, &request).map_err(|error| {
+            let declined = matches!(error, MeshError::Budget { .. } | MeshError::Declined(_));
+            (
+                if declined { Outcome::Declined } else { Outcome::Failed },
+                error.to_string(),
+            )
+        })?;
+        Ok((entry, run))
+    }
+
+    /// Appends the rows of a unit's cells.
+    fn write(&self, unit: &Unit, ending: &Ending, journal: &mut Journal, weight: f64) -> Result<(), JournalError> {
+        let first = &self.cells[unit.cells[0]];
+        for (place, &cell) in unit.cells.iter().enumerate() {
+            let planned = &self.cells[cell];
+            let mut report = ending.report.clone();
+            if let Some(report) = &mut report {
+                // The mesh is the same; what was asked for is not.
+                (report.t, report.alpha) = (planned.cell.t, planned.cell.t / planned.cell.c_b);
+            }
+            let row = Row {
+                key: planned.key.clone(),
+                group: planned.group.clone(),
+                outcome: ending.outcome,
+                reason: ending.reason.clone(),
+                estimated_triangles: ending.estimated_triangles,
+                cell: planned.cell.clone(),
+                samples: ending.samples.clone(),
+                same_as: (place > 0).then(|| first.key.clone()),
+                report,
+            };
+            let line = Line::new(row.clone()).or_else(|error| Line::new(unwritable(row, &error.to_string())));
+            if let Ok(line) = line {
+                self.watch.row(&line.row, if place == 0 { weight } else { 0.0 });
+                journal.append(line)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The mesher a cell asks for.
+///
+/// # Errors
+/// What is wrong with its name or parameters.
+pub fn mesher(cell: &Cell) -> Result<(&'static Entry, Box<dyn Mesher>), String> {
+    let entry = meshers::find(&cell.mesher)
+        .ok_or_else(|| format!("there is no mesher `{}`; `biting list` shows them", cell.mesher))?;
+    let made = (entry.make)(&cell.params);
+    let mesher = made.map_err(|error| format!("mesher `{}`: {error}; `biting list` shows them", cell.mesher))?;
+    Ok((entry, mesher))
+}
+
+fn too_large(estimated: f64, limit: f64) -> Ending {
+    let reason = format!("about {estimated:.0} triangles expected, above the cell's budget of {limit:.0}");
+    Ending::without_report(Outcome::Skipped, reason, estimated)
+}
+
+/// JSON has no numbers that are not finite: the cell failed, and the row says so.
+fn unwritable(row: Row, error: &str) -> Row {
+    let reason = format!("its report cannot be written ({error}): a number in it is not finite");
+    Row {
+        outcome: Outcome::Failed,
+        reason: Some(reason),
+        estimated_triangles: if row.estimated_triangles.is_finite() {
+            row.estimated_triangles
+        } else {
+            f64::MAX
+        },
+        samples: Vec::new(),
+        report: None,
+        ..row
+    }
+}
+
+/// The report's times become those of the run nearest to the median of `samples`, its total the median itself.
+fn take_median(report: &mut Report, run: Run, samples: &[f64]) {
+    let Some(median) = summary::median(samples.to_vec()) else {
+        return;
+    };
+    if (run.seconds.total - median).abs() < (report.seconds.total - median).abs() {
+        report.seconds.steps = run.seconds.steps;
+    }
+    report.seconds.total = median;
+    report.peak_rss_bytes = report.peak_rss_bytes.max(run.peak_rss_bytes);
+}
+
+/// A panic in one cell is that cell's failure, and no reason to lose the others.
+fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
+        let text = panic.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+        format!("panicked: {}", text.unwrap_or_else(|| "no message".into()))
+    })
+}
