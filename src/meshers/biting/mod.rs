@@ -42,6 +42,8 @@ mod boundary;
 mod front;
 mod interior;
 mod order;
+#[cfg(test)]
+mod tests;
 
 pub use order::Order;
 

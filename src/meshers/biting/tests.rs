@@ -1,0 +1,191 @@
+//! What the certificate does not see: the rules of step 4, the orders, refusals.
+
+use super::*;
+use crate::domain::gallery;
+use crate::meshers::Budget;
+use crate::quality::{Bounds, judge};
+use crate::spacing::{Options, build};
+use proptest::prelude::*;
+
+fn request(c_b: f64) -> Request {
+    Request {
+        c_b,
+        seed: 0,
+        threads: 1,
+        budget: Budget {
+            max_vertices: Some(50_000),
+            ..Budget::default()
+        },
+    }
+}
+
+fn square() -> Domain {
+    gallery::domain("unit-square")
+        .expect("a gallery name")
+        .expect("a valid domain")
+}
+
+/// A spacing from its SPEC, not capped by lfs.
+fn uncapped(domain: &Domain, spec: &str, alpha: f64) -> std::sync::Arc<dyn Spacing> {
+    let options = Options {
+        lfs_cap: false,
+        ..Options::with_alpha(alpha)
+    };
+    build(spec, domain, &options).expect("a spacing").function
+}
+
+/// Positions of the centres on the lower side of the unit square, sorted.
+fn on_lower_side(bitten: &Bitten) -> Vec<f64> {
+    let mut xs: Vec<f64> = bitten.centres.iter().filter(|p| p.y == 0.0).map(|p| p.x).collect();
+    xs.sort_by(f64::total_cmp);
+    xs
+}
+
+fn bite_square(size: f64, order: Order) -> Bitten {
+    let domain = square();
+    let spacing = uncapped(&domain, &format!("uniform:{size}"), 1.0);
+    Biting { order }
+        .bite(&domain, &*spacing, &request(1.0), &mut Trace::default())
+        .expect("a bitten square")
+}
+
+#[test]
+fn circles_that_touch_get_a_middle_circle() {
+    assert_eq!(on_lower_side(&bite_square(0.5, Order::Fifo)), [0.0, 0.5, 1.0]);
+}
+
+#[test]
+fn circles_that_overlap_get_none() {
+    assert_eq!(on_lower_side(&bite_square(0.51, Order::Fifo)), [0.0, 1.0]);
+}
+
+#[test]
+fn a_gap_that_one_circle_closes_gets_the_middle_circle() {
+    // Circles of 0.4 leave the gap from 0.4 to 0.6; either end's circle would reach the other circle.
+    let xs = on_lower_side(&bite_square(0.4, Order::Fifo));
+    assert_eq!(xs.len(), 3);
+    assert!((xs[1] - 0.5).abs() < 1e-15, "{xs:?}");
+}
+
+#[test]
+fn a_gap_is_bitten_at_its_ends_first() {
+    // From 0.3 to 0.7: the circle at 0.3 ends at 0.6, a gap of 0.1 is left and gets its middle circle.
+    let xs = on_lower_side(&bite_square(0.3, Order::Fifo));
+    let expected = [0.0, 0.3, 0.65, 1.0];
+    assert!(
+        xs.iter().zip(expected).all(|(x, e)| (x - e).abs() < 1e-10) && xs.len() == 4,
+        "{xs:?}"
+    );
+}
+
+#[test]
+fn the_far_end_is_bitten_where_its_circle_is_too_small_to_reach_back() {
+    // f falls from left to right: the circle at q1 reaches the right vertex's circle, the one at q2 does not reach q1.
+    let domain = square();
+    let spacing = uncapped(&domain, "expr: 0.51 - 0.33*x", 0.33);
+    let bitten = Biting::default()
+        .bite(&domain, &*spacing, &request(1.0), &mut Trace::default())
+        .expect("bitten");
+    let xs = on_lower_side(&bitten);
+    assert!(
+        xs.iter().any(|x| (x - 0.82).abs() < 1e-9),
+        "q2 = 1 - f(1) = 0.82 is bitten: {xs:?}"
+    );
+}
+
+#[test]
+fn every_order_keeps_the_first_layer() {
+    let first = bite_square(0.05, Order::Fifo);
+    let boundary = |bitten: &Bitten| bitten.pieces.clone();
+    for order in Order::ALL {
+        let bitten = bite_square(0.05, order);
+        assert_eq!(
+            boundary(&bitten),
+            boundary(&first),
+            "{order:?}: the boundary is bitten before the interior"
+        );
+        assert_eq!(bitten.centres[..4], first.centres[..4], "{order:?}");
+    }
+}
+
+#[test]
+fn the_seed_matters_to_random_only() {
+    let domain = square();
+    let spacing = uncapped(&domain, "uniform:0.05", 1.0);
+    for order in Order::ALL {
+        let bite = |seed| {
+            let request = Request { seed, ..request(1.0) };
+            Biting { order }
+                .bite(&domain, &*spacing, &request, &mut Trace::default())
+                .expect("bitten")
+        };
+        assert_eq!(bite(1) != bite(2), order == Order::Random, "{order:?}");
+    }
+}
+
+#[test]
+fn a_spacing_too_steep_is_declined() {
+    let domain = square();
+    let spacing = build("lfs", &domain, &Options::with_alpha(f64::INFINITY))
+        .expect("lfs")
+        .function;
+    let declined = Biting::default().mesh(&domain, &*spacing, &request(1.0), &mut Trace::default());
+    assert!(
+        matches!(&declined, Err(MeshError::Declined(reason)) if reason.contains("below 1")),
+        "{declined:?}"
+    );
+}
+
+/// A spacing that breaks its promise at one half of the domain.
+struct Broken(f64);
+
+impl Spacing for Broken {
+    fn at(&self, x: DVec2) -> f64 {
+        if x.x < 0.5 { 0.1 } else { self.0 }
+    }
+
+    fn lipschitz(&self) -> f64 {
+        0.1
+    }
+}
+
+#[test]
+fn a_spacing_that_breaks_its_promise_is_told_with_the_place() {
+    for value in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+        let told = Biting::default().mesh(&square(), &Broken(value), &request(1.0), &mut Trace::default());
+        assert!(
+            matches!(told, Err(MeshError::Spacing { x, .. }) if x >= 0.5),
+            "{value}: {told:?}"
+        );
+    }
+}
+
+#[test]
+fn a_size_below_the_resolution_of_coordinates_is_declined() {
+    let told = Biting::default().mesh(&square(), &Broken(1e-14), &request(1.0), &mut Trace::default());
+    assert!(
+        matches!(&told, Err(MeshError::Declined(reason)) if reason.contains("resolve")),
+        "{told:?}"
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    /// Packing and coverage need nothing of the domain: any spacing, any order, any seed.
+    #[test]
+    fn packing_and_coverage_hold_for_any_spacing_and_order(
+        low in 0.02..0.3f64,
+        slope in 0.0..0.8f64,
+        order in prop::sample::select(Order::ALL.to_vec()),
+        name in prop::sample::select(vec!["unit-square", "plate-hole", "interface", "random-simple"]),
+    ) {
+        let domain = gallery::domain(name).expect("a gallery name").expect("a valid domain");
+        let spacing = uncapped(&domain, &format!("expr: {low} + {slope}*sqrt((x-0.3)^2 + (y-0.4)^2 + 0.001)"), 0.9);
+        let mesh = Biting { order }.mesh(&domain, &*spacing, &request(1.0), &mut Trace::default()).expect("a mesh");
+        let bounds = Bounds {
+            spacing: &*spacing, c_b: 1.0, lfs_cap: false, integral: None, integral_error: 0.0, guaranteed: &["coverage"],
+        };
+        let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
+        prop_assert!(certificate.holds, "{:?}", certificate.checks.iter().filter(|c| !c.holds).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,253 @@
+//! One suite for all meshers: every entry of `MESHERS` on every small domain, then the same scaled, rotated, mirrored,
+//! shuffled, run twice and with several threads. The certificate judges; nothing here knows a mesher's name.
+
+use biting::domain::{Domain, Fill, Pslg, gallery};
+use biting::geometry::DVec2;
+use biting::mesh::Mesh;
+use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace};
+use biting::quality::{Bounds, judge};
+use biting::spacing::{self, Options, Prepared};
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
+
+const T: f64 = 0.3;
+const C_B: f64 = 0.6;
+
+/// Gallery domains small enough for debug builds.
+fn small_gallery() -> Vec<Pslg> {
+    let names = [
+        "unit-square",
+        "l-shape",
+        "plate-hole",
+        "star",
+        "interface",
+        "random-convex",
+        "random-simple",
+    ];
+    names
+        .iter()
+        .map(|name| gallery::pslg(name).expect("a gallery name").expect("a gallery domain"))
+        .collect()
+}
+
+fn request(threads: usize) -> Request {
+    Request {
+        c_b: C_B,
+        seed: 1,
+        threads,
+        budget: Budget {
+            max_vertices: Some(100_000),
+            ..Budget::default()
+        },
+    }
+}
+
+fn prepare(pslg: &Pslg, spec: &str) -> (Domain, Prepared) {
+    let domain = Domain::new(pslg.clone()).expect("a valid domain");
+    let prepared = spacing::build(spec, &domain, &Options::new(T, C_B)).expect("a spacing");
+    (domain, prepared)
+}
+
+fn run(entry: &Entry, domain: &Domain, prepared: &Prepared, threads: usize) -> Result<Mesh, MeshError> {
+    let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+    mesher.mesh(domain, &*prepared.function, &request(threads), &mut Trace::default())
+}
+
+/// Meshes and holds every guaranteed check of the certificate; a method may decline, with a reason.
+fn certified(entry: &Entry, pslg: &Pslg, spec: &str, what: &str) -> Option<Mesh> {
+    let (domain, prepared) = prepare(pslg, spec);
+    let mesh = match run(entry, &domain, &prepared, 1) {
+        Ok(mesh) => mesh,
+        Err(MeshError::Declined(reason)) => {
+            assert!(!reason.is_empty());
+            return None;
+        }
+        Err(error) => panic!("{} on {} {what}: {error}", entry.name, pslg.name),
+    };
+    let bounds = Bounds {
+        spacing: &*prepared.function,
+        c_b: C_B,
+        lfs_cap: prepared.lfs_cap,
+        integral: None,
+        integral_error: 0.0,
+        guaranteed: entry.guarantees,
+    };
+    let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
+    let broken: Vec<_> = certificate
+        .checks
+        .iter()
+        .filter(|check| check.applies && !check.holds)
+        .collect();
+    assert!(broken.is_empty(), "{} on {} {what}: {broken:#?}", entry.name, pslg.name);
+    assert!(certificate.holds);
+    assert_eq!(
+        mesh.points[..domain.vertices().len()],
+        *domain.vertices(),
+        "input vertices come first, in order"
+    );
+    Some(mesh)
+}
+
+/// The same domain with every point moved by `map`.
+fn mapped(pslg: &Pslg, map: impl Fn(DVec2) -> DVec2) -> Pslg {
+    let mut moved = pslg.clone();
+    moved.vertices.iter_mut().for_each(|p| *p = map(*p));
+    moved
+        .regions
+        .iter_mut()
+        .for_each(|region| region.point = map(region.point));
+    if let Fill::HolePoints(points) = &mut moved.fill {
+        points.iter_mut().for_each(|p| *p = map(*p));
+    }
+    moved
+}
+
+/// The same domain with vertices and segments in another order and segments turned round.
+fn shuffled(pslg: &Pslg, seed: u64) -> Pslg {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let mut order: Vec<usize> = (0..pslg.vertices.len()).collect();
+    order.shuffle(&mut random);
+    let mut place = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
+    let mut other = pslg.clone();
+    other.vertices = order.iter().map(|&old| pslg.vertices[old]).collect();
+    if !pslg.vertex_markers.is_empty() {
+        other.vertex_markers = order.iter().map(|&old| pslg.vertex_markers[old]).collect();
+    }
+    for segment in &mut other.segments {
+        (segment.a, segment.b) = (place[segment.b], place[segment.a]);
+    }
+    if matches!(pslg.fill, Fill::HolePoints(_)) {
+        other.segments.shuffle(&mut random);
+    }
+    other
+}
+
+#[test]
+fn every_mesher_on_every_small_domain() {
+    for entry in MESHERS {
+        for pslg in small_gallery() {
+            for spec in ["lfs", "expr: 0.05 + 0.2*(x*x + y*y)"] {
+                certified(entry, &pslg, spec, spec);
+            }
+        }
+    }
+}
+
+#[test]
+fn scaled_from_a_millionth_to_a_million() {
+    for entry in MESHERS {
+        for pslg in small_gallery() {
+            for scale in [1e-6, 1e-3, 1e3, 1e6] {
+                certified(
+                    entry,
+                    &mapped(&pslg, |p| p * scale),
+                    "lfs",
+                    &format!("scaled by {scale:e}"),
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_power_of_two_changes_nothing_but_the_scale() {
+    for entry in MESHERS {
+        for pslg in small_gallery() {
+            let mesh = certified(entry, &pslg, "lfs", "as it is");
+            let larger = certified(entry, &mapped(&pslg, |p| p * 1024.0), "lfs", "scaled by 1024");
+            let (Some(mesh), Some(larger)) = (mesh, larger) else {
+                continue;
+            };
+            assert_eq!(
+                mesh.triangles.len(),
+                larger.triangles.len(),
+                "{} on {}",
+                entry.name,
+                pslg.name
+            );
+        }
+    }
+}
+
+#[test]
+fn rotated_mirrored_and_shuffled() {
+    for entry in MESHERS {
+        for pslg in small_gallery() {
+            for degrees in [17.0f64, 90.0, 123.0] {
+                let turn = DVec2::from_angle(degrees.to_radians());
+                certified(
+                    entry,
+                    &mapped(&pslg, |p| turn.rotate(p)),
+                    "lfs",
+                    &format!("turned by {degrees} degrees"),
+                );
+            }
+            certified(entry, &mapped(&pslg, |p| DVec2::new(-p.x, p.y)), "lfs", "mirrored");
+            certified(entry, &shuffled(&pslg, 5), "lfs", "shuffled");
+        }
+    }
+}
+
+#[test]
+fn bit_equal_when_run_twice_and_with_any_number_of_threads() {
+    for entry in MESHERS {
+        for pslg in small_gallery() {
+            let (domain, prepared) = prepare(&pslg, "lfs");
+            let meshes = [1, 1, 2, 4].map(|threads| run(entry, &domain, &prepared, threads));
+            for mesh in &meshes[1..] {
+                assert_eq!(mesh, &meshes[0], "{} on {}", entry.name, pslg.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_budget_ends_in_an_error_that_says_where() {
+    for entry in MESHERS {
+        let (domain, prepared) = prepare(
+            &gallery::pslg("plate-hole").expect("a gallery name").expect("a domain"),
+            "lfs",
+        );
+        let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+        let request = Request {
+            budget: Budget {
+                max_vertices: Some(100),
+                ..Budget::default()
+            },
+            ..request(1)
+        };
+        let stopped = mesher.mesh(&domain, &*prepared.function, &request, &mut Trace::default());
+        match stopped {
+            Err(MeshError::Budget { budget, vertices, .. }) => {
+                assert!(
+                    budget.contains("max_vertices = 100") && vertices > 100,
+                    "{budget}, {vertices}"
+                );
+            }
+            other => panic!("{}: {other:?}", entry.name),
+        }
+    }
+}
+
+#[test]
+fn parameters_are_as_listed() {
+    for entry in MESHERS {
+        for parameter in entry.parameters {
+            let of = |value: &str| {
+                Parameters::from_iter([(parameter.name.to_owned(), serde_json::Value::String(value.to_owned()))])
+            };
+            assert!(
+                (entry.make)(&of(parameter.default)).is_ok(),
+                "{} {}",
+                entry.name,
+                parameter.name
+            );
+            let refused = (entry.make)(&of("no such value")).err().expect("refused");
+            assert!(refused.contains("no such value"), "{refused}");
+        }
+        let unknown = Parameters::from_iter([("nonsense".to_owned(), serde_json::Value::Null)]);
+        assert!((entry.make)(&unknown).err().expect("refused").contains("nonsense"));
+    }
+}
