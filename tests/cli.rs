@@ -110,7 +110,16 @@ fn a_mesh_its_files_and_its_report() {
         "--report",
         "report.json",
     ];
-    let files = ["m.node", "m.vtu", "m.msh", "m.obj", "m.svg", "m.json", "domain.poly"];
+    let files = [
+        "m.node",
+        "m.vtu",
+        "m.msh",
+        "m.obj",
+        "m.svg",
+        "m.png",
+        "m.json",
+        "domain.poly",
+    ];
     for file in files {
         arguments.extend(["--out", file]);
     }

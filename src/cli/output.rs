@@ -1,6 +1,7 @@
 //! Writing meshes by the ending of a file's name, and telling a certificate.
 
 use super::exit::{Failure, Outcome};
+use crate::charts;
 use crate::domain::Domain;
 use crate::files::write_whole;
 use crate::mesh::{Mesh, files};
@@ -14,6 +15,8 @@ pub enum Target {
     Stdout,
     /// The domain itself, as Triangle reads it.
     Poly(PathBuf),
+    /// A picture of dots.
+    Png(PathBuf),
     /// A mesh file.
     Mesh(PathBuf),
 }
@@ -28,9 +31,10 @@ impl Target {
         match ending.as_deref() {
             _ if text == "-" => Ok(Self::Stdout),
             Some("poly") => Ok(Self::Poly(path)),
+            Some("png") => Ok(Self::Png(path)),
             _ if files::Format::of(&path).is_some() => Ok(Self::Mesh(path)),
             _ => Err(Failure::Input(format!(
-                "--out {text}: no format has this ending; use .node, .vtu, .msh, .obj, .svg, .json, .poly or -"
+                "--out {text}: no format has this ending; use .node, .vtu, .msh, .obj, .svg, .png, .json, .poly or -"
             ))),
         }
     }
@@ -46,6 +50,10 @@ pub fn write(target: &Target, domain: &Domain, mesh: &Mesh) -> Result<Vec<PathBu
         }
         Target::Poly(path) => {
             write_whole(path, domain.to_poly().as_bytes()).map_err(|cause| refused(path, cause))?;
+            Ok(vec![path.clone()])
+        }
+        Target::Png(path) => {
+            charts::draw_mesh(mesh, path).map_err(Failure::input)?;
             Ok(vec![path.clone()])
         }
         Target::Mesh(path) => {
