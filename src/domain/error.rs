@@ -46,7 +46,7 @@ impl FaultKind {
     /// What to do about it.
     pub fn advice(self) -> &'static str {
         match self {
-            Self::NotFinite => "give finite coordinates of at most 1e100 in size",
+            Self::NotFinite => "give finite coordinates of at most 1e70 in size",
             Self::NoSuchVertex => "number the ends as the vertices are numbered",
             Self::TooFew => "a domain needs at least three vertices joined by three segments",
             Self::DuplicateVertices => "use one of them for both, or let --repair merge them",

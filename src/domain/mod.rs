@@ -10,6 +10,7 @@ pub mod files;
 pub mod gallery;
 mod locate;
 mod pslg;
+mod repair;
 mod subdivision;
 #[cfg(test)]
 mod tests;
@@ -20,6 +21,7 @@ pub use error::{DomainError, Fault, FaultKind};
 pub use files::{load, read};
 pub use locate::Place;
 pub use pslg::{Fill, InputSegment, Pslg, Region, Source};
+pub use repair::{RepairReport, repair};
 pub use validate::faults;
 
 /// An input segment between two vertices.

@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 /// Most faults collected; a hopeless file would otherwise yield a quadratic number of crossings.
 const MOST_FAULTS: usize = 1000;
 
-/// Largest coordinate: products of four of them, as in the in-circle test, stay finite.
+/// Largest coordinate: products of four of them, as in the in-circle test, stay finite. The advice names it.
 const LARGEST: f64 = 1e70;
 
 /// Every fault of coordinates, indices and segments; what holds faces is judged by [`super::Domain::new`].

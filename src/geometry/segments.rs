@@ -361,3 +361,6 @@ fn ray_meets_box(origin: DVec2, direction: DVec2, to: f64, bounds: &Rect) -> boo
     // A few ulp of slack, or a box as flat as a segment could be missed by rounding.
     enter <= leave + 4.0 * f64::EPSILON * leave.abs().max(enter.abs())
 }
+
+#[cfg(test)]
+mod tests;

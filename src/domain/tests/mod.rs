@@ -4,6 +4,10 @@ use super::gallery;
 use super::{Domain, FaultKind, InputSegment, Place, Pslg};
 use crate::geometry::DVec2;
 
+mod faults;
+mod files;
+mod oracle;
+
 fn square(pslg: &mut Pslg, low: f64, high: f64) {
     let corners = [(low, low), (high, low), (high, high), (low, high)];
     pslg.add_ring(corners.map(|(x, y)| DVec2::new(x, y)), 1);
