@@ -57,6 +57,8 @@ mod statistics;
 mod structure;
 mod subject;
 mod tally;
+#[cfg(test)]
+mod tests;
 
 pub use shape::angles_deg;
 

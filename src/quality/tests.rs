@@ -1,0 +1,432 @@
+use super::*;
+use crate::delaunay::triangulate;
+use crate::domain::Pslg;
+use crate::geometry::DVec2;
+use crate::geometry::tolerance::CERTIFICATE;
+use crate::mesh::Piece;
+use proptest::prelude::*;
+
+fn p(x: f64, y: f64) -> DVec2 {
+    DVec2::new(x, y)
+}
+
+/// f(x) = base + slope · x.
+struct Linear {
+    base: f64,
+    slope: DVec2,
+}
+
+impl Spacing for Linear {
+    fn at(&self, x: DVec2) -> f64 {
+        self.base + self.slope.dot(x)
+    }
+
+    fn lipschitz(&self) -> f64 {
+        self.slope.length()
+    }
+}
+
+const UNIFORM: Linear = Linear {
+    base: 1.0,
+    slope: DVec2::ZERO,
+};
+
+const CLAIMS: [&str; 9] = [
+    "packing-disjoint",
+    "coverage",
+    "min-angle",
+    "nn-vertex-lower",
+    "nn-vertex-upper",
+    "nn-point-lower",
+    "nn-point-upper",
+    "vertices-lower",
+    "vertices-upper",
+];
+
+/// Everything guaranteed, c_b as given.
+fn bounds(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
+    Bounds {
+        spacing,
+        c_b,
+        lfs_cap: true,
+        integral: Some(1.0),
+        integral_error: 0.0,
+        guaranteed: &CLAIMS,
+    }
+}
+
+const SQUARE: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+
+fn domain(ring: &[DVec2], inner: &[DVec2]) -> Domain {
+    let mut pslg = Pslg::new("test");
+    pslg.add_ring(ring.iter().copied(), 1);
+    // The ends of an inner segment are vertices of the ring.
+    let find = |x: &DVec2| ring.iter().position(|y| y == x).unwrap();
+    for ends in inner.chunks(2) {
+        let (a, b) = (find(&ends[0]), find(&ends[1]));
+        pslg.segments.push(crate::domain::InputSegment { a, b, marker: 0 });
+    }
+    Domain::new(pslg).unwrap()
+}
+
+fn mesh(points: &[DVec2], triangles: &[[u32; 3]]) -> Mesh {
+    Mesh {
+        point_markers: vec![0; points.len()],
+        points: points.to_vec(),
+        regions: vec![0.0; triangles.len()],
+        triangles: triangles.to_vec(),
+        ..Mesh::default()
+    }
+}
+
+/// The unit square around `middle`, four triangles.
+fn fan(middle: DVec2) -> Mesh {
+    mesh(
+        &[&SQUARE[..], &[middle]].concat(),
+        &[[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
+    )
+}
+
+/// The claims that do not hold.
+fn broken(domain: &Domain, mesh: &Mesh, bounds: Option<&Bounds>) -> Vec<String> {
+    let (_, certificate) = judge(domain, mesh, bounds);
+    let broken: Vec<_> = certificate.checks.iter().filter(|check| !check.holds).collect();
+    assert!(broken.iter().all(|check| check.broken > 0), "{broken:?}");
+    assert_eq!(certificate.holds, broken.iter().all(|check| !check.applies));
+    broken.iter().map(|check| check.claim.clone()).collect()
+}
+
+#[test]
+fn a_good_mesh_has_a_whole_certificate() {
+    let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&UNIFORM, 0.6)));
+    assert!(certificate.holds, "{certificate:#?}");
+    assert_eq!(certificate.checks.len(), 8 + CLAIMS.len());
+    assert!(
+        certificate
+            .checks
+            .iter()
+            .all(|check| check.holds && check.applies && check.worst.is_some())
+    );
+    let worst = |claim: &str| certificate.check(claim).unwrap().worst.unwrap();
+    let near = |x: f64, y: f64| (x - y).abs() < 1e-12;
+    assert!(near(worst("packing-disjoint"), 0.5f64.sqrt() / 0.6));
+    assert_eq!(worst("coverage"), 0.0);
+    assert!(near(worst("min-angle"), 45.0));
+    assert!(near(worst("nn-vertex-lower"), 0.5f64.sqrt()) && near(worst("nn-vertex-upper"), 0.5f64.sqrt()));
+    assert!(near(worst("nn-point-lower"), 0.5f64.sqrt() / 2.0) && near(worst("nn-point-upper"), 0.5));
+    // Four corners with a quarter of their packing circles inside, and the middle.
+    assert!(near(worst("vertices-upper"), 2.0) && near(worst("vertices-lower"), 5.0));
+}
+
+#[test]
+fn each_bound_breaks_where_it_should() {
+    let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
+    for (c_b, expected) in [
+        (0.45, vec!["coverage"]),
+        (0.3, vec!["coverage", "nn-vertex-upper"]),
+        (0.25, vec!["coverage", "nn-vertex-upper", "vertices-lower"]),
+        (
+            0.11,
+            vec!["coverage", "nn-vertex-upper", "nn-point-upper", "vertices-lower"],
+        ),
+        (0.75, vec!["packing-disjoint", "nn-vertex-lower", "nn-point-lower"]),
+        (
+            1.4,
+            vec![
+                "packing-disjoint",
+                "nn-vertex-lower",
+                "nn-point-lower",
+                "vertices-upper",
+            ],
+        ),
+    ] {
+        assert_eq!(
+            broken(&square, &good, Some(&bounds(&UNIFORM, c_b))),
+            expected,
+            "c_b = {c_b}"
+        );
+    }
+    let flat = broken(&square, &fan(p(0.5, 0.2)), Some(&bounds(&UNIFORM, 0.6)));
+    assert!(flat.contains(&"min-angle".to_string()), "{flat:?}");
+}
+
+#[test]
+fn a_hole_in_the_cover_is_seen_from_circles_alone() {
+    let ring = [
+        p(0.0, 0.0),
+        p(0.5, 0.0),
+        p(1.0, 0.0),
+        p(1.0, 0.5),
+        p(1.0, 1.0),
+        p(0.5, 1.0),
+        p(0.0, 1.0),
+        p(0.0, 0.5),
+    ];
+    let hollow = mesh(
+        &ring,
+        &[[0, 1, 7], [1, 2, 3], [3, 4, 5], [5, 6, 7], [1, 3, 7], [3, 5, 7]],
+    );
+    let domain = domain(&ring, &[]);
+    let check = |c_b: f64| {
+        let (_, certificate) = judge(&domain, &hollow, Some(&bounds(&UNIFORM, c_b)));
+        certificate.check("coverage").unwrap().clone()
+    };
+    let open = check(0.3);
+    assert!(!open.holds && open.worst.unwrap() > 0.5 && open.at.is_some());
+    assert!(check(0.5).holds && !check(0.499).holds);
+}
+
+#[test]
+fn each_structural_check_breaks_where_it_should() {
+    let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
+    let wrong = |change: &dyn Fn(&mut Mesh)| {
+        let mut mesh = good.clone();
+        change(&mut mesh);
+        broken(&square, &mesh, None)
+    };
+    assert_eq!(broken(&square, &good, None), [""; 0]);
+    let flipped = wrong(&|mesh| mesh.triangles[0] = [1, 0, 4]);
+    assert_eq!(flipped, ["positive-orientation", "area", "manifold-edges"]);
+    let missing = wrong(&|mesh| mesh.triangles.truncate(3));
+    assert_eq!(missing, ["area", "input-segments", "boundary-on-segments"]);
+    assert_eq!(wrong(&|mesh| mesh.points.push(p(0.3, 0.3))), ["vertices-used"]);
+    let moved = wrong(&|mesh| mesh.points[2] = p(1.0, 1.0 + 1e-12));
+    assert_eq!(moved, ["input-vertices", "input-segments", "boundary-on-segments"]);
+    let twice = wrong(&|mesh| mesh.triangles.push([0, 1, 4]));
+    assert_eq!(twice, ["area", "manifold-edges"]);
+    let flat = wrong(&|mesh| mesh.points[4] = p(0.5, 0.0));
+    assert!(flat.contains(&"positive-orientation".to_string()), "{flat:?}");
+}
+
+#[test]
+fn segments_and_delaunay_edges_are_told_apart() {
+    let kite = [p(0.0, 0.0), p(2.0, -1.0), p(4.0, 0.0), p(2.0, 1.0)];
+    let long = mesh(&kite, &[[0, 1, 2], [0, 2, 3]]);
+    let short = mesh(&kite, &[[0, 1, 3], [1, 2, 3]]);
+    let (free, across) = (domain(&kite, &[]), domain(&kite, &[kite[0], kite[2]]));
+    assert_eq!(broken(&free, &long, None), ["constrained-delaunay"]);
+    assert_eq!(broken(&free, &short, None), [""; 0]);
+    assert_eq!(broken(&across, &long, None), [""; 0]);
+    assert_eq!(broken(&across, &short, None), ["input-segments"]);
+}
+
+#[test]
+fn a_mesh_from_elsewhere_is_matched_by_coordinates() {
+    let square = domain(&SQUARE, &[]);
+    let shuffled = mesh(
+        &[
+            p(0.5, 0.5),
+            p(0.0, 1.0),
+            p(1.0, 0.0),
+            p(0.0, 1.0f64.next_down() - 1.0),
+            p(1.0, 1.0f64.next_up()),
+            p(1.0, 0.5),
+        ],
+        &[[3, 2, 0], [2, 5, 0], [5, 4, 0], [4, 1, 0], [1, 3, 0]],
+    );
+    assert_eq!(broken(&square, &shuffled, None), [""; 0]);
+    assert_eq!(
+        broken(&square, &Mesh::default(), None),
+        ["area", "input-vertices", "input-segments"]
+    );
+}
+
+#[test]
+fn triangles_at_acute_vertices_are_excused() {
+    let sliver = [p(0.0, 0.0), p(4.0, 0.0), p(4.0, 1.0)];
+    let domain = domain(&sliver, &[]);
+    let (statistics, certificate) = judge(&domain, &mesh(&sliver, &[[0, 1, 2]]), Some(&bounds(&UNIFORM, 0.9)));
+    let check = certificate.check("min-angle").unwrap();
+    assert!(check.holds && check.worst.is_none() && !check.applies, "{check:?}");
+    assert_eq!(
+        (certificate.excused, statistics.excused, statistics.min_angle_free_deg),
+        (1, 1, None)
+    );
+    assert!((statistics.min_angle_deg - 0.25f64.atan().to_degrees()).abs() < 1e-12);
+}
+
+#[test]
+fn checks_apply_only_under_their_hypotheses() {
+    let right = Hypotheses {
+        t: 0.3,
+        c_b: 0.5,
+        lfs_cap: true,
+        smallest_segment_angle_deg: 90.0,
+    };
+    let implied = |hypotheses: Hypotheses| CLAIMS.into_iter().filter(|claim| hypotheses.imply(claim)).count();
+    assert_eq!(implied(right), 9);
+    assert_eq!(
+        implied(Hypotheses {
+            smallest_segment_angle_deg: 80.0,
+            ..right
+        }),
+        8
+    );
+    assert_eq!(implied(Hypotheses { t: 0.4, ..right }), 8);
+    assert_eq!(implied(Hypotheses { c_b: 1.2, ..right }), 2);
+    assert_eq!(
+        implied(Hypotheses {
+            lfs_cap: false,
+            ..right
+        }),
+        2
+    );
+    assert_eq!(implied(Hypotheses { t: 1.0, ..right }), 2);
+    let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
+    let none = Bounds {
+        guaranteed: &[],
+        ..bounds(&UNIFORM, 0.3)
+    };
+    let (_, certificate) = judge(&square, &good, Some(&none));
+    assert!(certificate.holds && !certificate.check("coverage").unwrap().holds);
+}
+
+#[test]
+fn statistics_of_a_mesh_known_by_hand() {
+    let (statistics, _) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&UNIFORM, 0.5)));
+    assert_eq!(
+        (statistics.vertices, statistics.triangles, statistics.excused),
+        (5, 4, 0)
+    );
+    let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-12, "{x} {y}");
+    near(statistics.min_angle_deg, 45.0);
+    near(statistics.min_angle_free_deg.unwrap(), 45.0);
+    near(statistics.max_angle_deg, 90.0);
+    near(statistics.mean_min_angle_deg, 45.0);
+    near(statistics.p05_min_angle_deg, 45.0);
+    near(statistics.max_radius_edge, 0.5f64.sqrt());
+    assert_eq!(statistics.min_angle_histogram.iter().sum::<u64>(), 4);
+    let edges = statistics.edge_over_size.unwrap();
+    near(edges.p05, 2f64.sqrt());
+    near(edges.p50, 0.5 * (2.0 + 2f64.sqrt()));
+    near(edges.p95, 2.0);
+    let nn = statistics.nn_over_f.unwrap();
+    near(nn.min, 0.5f64.sqrt());
+    near(nn.max, 0.5f64.sqrt());
+    let (bare, _) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), None);
+    assert_eq!((bare.edge_over_size, bare.nn_over_f), (None, None));
+}
+
+/// An L with a square hole, its boundary cut into pieces, with further points inside.
+fn l_with_hole(parts: usize, inside: &[(f64, f64)]) -> (Domain, Mesh) {
+    let mut pslg = Pslg::new("l");
+    pslg.add_ring(
+        [
+            p(0.0, 0.0),
+            p(2.0, 0.0),
+            p(2.0, 1.0),
+            p(1.0, 1.0),
+            p(1.0, 2.0),
+            p(0.0, 2.0),
+        ],
+        1,
+    );
+    pslg.add_ring([p(0.4, 0.4), p(0.6, 0.4), p(0.6, 0.6), p(0.4, 0.6)], 2);
+    pslg.add_hole(p(0.5, 0.5));
+    let domain = Domain::new(pslg).unwrap();
+    let (mut points, mut pieces) = (domain.vertices().to_vec(), Vec::new());
+    for (s, segment) in domain.segments().iter().enumerate() {
+        let [a, b] = domain.ends(s);
+        let mut last = segment.a as u32;
+        for k in 1..parts {
+            pieces.push(Piece {
+                a: last,
+                b: points.len() as u32,
+                segment: s as u32,
+            });
+            last = points.len() as u32;
+            points.push(a.lerp(b, k as f64 / parts as f64));
+        }
+        pieces.push(Piece {
+            a: last,
+            b: segment.b as u32,
+            segment: s as u32,
+        });
+    }
+    for x in inside.iter().map(|&(x, y)| p(x, y)) {
+        if domain.contains(x) && !points.contains(&x) {
+            points.push(x);
+        }
+    }
+    let mesh = triangulate(&domain, points, pieces).unwrap();
+    (domain, mesh)
+}
+
+/// By definition: whether every sample of the domain is in a disc whose radius is changed by `change`.
+fn samples_covered(domain: &Domain, mesh: &Mesh, radius: impl Fn(DVec2) -> f64, change: f64) -> bool {
+    let samples =
+        (0..=SAMPLES).flat_map(|i| (0..=SAMPLES).map(move |j| p(i as f64, j as f64) * (2.0 / SAMPLES as f64)));
+    samples
+        .filter(|x| domain.contains(*x))
+        .all(|x| mesh.points.iter().any(|y| x.distance(*y) <= radius(*y) + change))
+}
+
+const SAMPLES: usize = 64;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    /// What samples refute, the check refutes; what samples prove with room to spare, the check confirms.
+    #[test]
+    fn coverage_agrees_with_dense_sampling(
+        inside in prop::collection::vec((0.0f64..2.0, 0.0f64..2.0), 0..60),
+        parts in 1usize..6,
+        base in 0.08f64..0.6,
+        slope in (-0.1f64..0.2, -0.1f64..0.2),
+    ) {
+        let (domain, mesh) = l_with_hole(parts, &inside);
+        let spacing = Linear { base: base.max(0.01), slope: p(slope.0, slope.1) };
+        let radius = |x: DVec2| spacing.at(x).max(1e-3) * (1.0 + CERTIFICATE);
+        prop_assume!(mesh.points.iter().all(|x| spacing.at(*x) >= 1e-3));
+        let (_, certificate) = judge(&domain, &mesh, Some(&bounds(&spacing, 1.0)));
+        let check = certificate.check("coverage").unwrap();
+        if !samples_covered(&domain, &mesh, radius, 0.0) {
+            prop_assert!(!check.holds, "{check:?}");
+        }
+        // Every point of the domain has a sample of the domain within this distance.
+        if samples_covered(&domain, &mesh, radius, -4.0 / SAMPLES as f64) {
+            prop_assert!(check.holds, "{check:?}");
+        }
+    }
+
+    /// Packing and nearest neighbours by definition, over all pairs.
+    #[test]
+    fn distances_agree_with_looking_at_all_pairs(
+        inside in prop::collection::vec((0.0f64..2.0, 0.0f64..2.0), 1..40),
+        slope in (0.0f64..0.2, 0.0f64..0.2),
+    ) {
+        let (domain, mesh) = l_with_hole(2, &inside);
+        let spacing = Linear { base: 0.2, slope: p(slope.0, slope.1) };
+        let (statistics, certificate) = judge(&domain, &mesh, Some(&bounds(&spacing, 1.0)));
+        let c_p = 1.0 / (2.0 + spacing.lipschitz());
+        let pairs = mesh.points.iter().enumerate().flat_map(|(k, x)| mesh.points[..k].iter().map(move |y| (*x, *y)));
+        let smallest = pairs.map(|(x, y)| x.distance(y) / (c_p * (spacing.at(x) + spacing.at(y)))).fold(9.0, f64::min);
+        let check = certificate.check("packing-disjoint").unwrap();
+        prop_assert!((check.worst.unwrap() - smallest).abs() < 1e-12 && check.holds == (smallest >= 1.0 - CERTIFICATE));
+        let nn = |x: DVec2| mesh.points.iter().filter(|y| **y != x).map(|y| x.distance(*y)).fold(9.0, f64::min);
+        let largest = mesh.points.iter().map(|x| nn(*x) / spacing.at(*x)).fold(0.0, f64::max);
+        prop_assert!((statistics.nn_over_f.unwrap().max - largest).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_threads() {
+    let inside: Vec<_> = (0..3000)
+        .map(|k| {
+            (
+                2.0 * (k as f64 * 0.618_034).fract(),
+                2.0 * (k as f64 * 0.414_214).fract(),
+            )
+        })
+        .collect();
+    let (domain, mesh) = l_with_hole(40, &inside);
+    let spacing = Linear {
+        base: 0.02,
+        slope: p(0.01, 0.0),
+    };
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| judge(&domain, &mesh, Some(&bounds(&spacing, 1.0))))
+    };
+    assert_eq!(run(1), run(4));
+}
