@@ -131,10 +131,12 @@ impl DiscTree {
             }
             let node = &self.nodes[index as usize];
             if node.second != 0 {
-                let children = [index + 1, node.second].map(|k| (k, away(self.nodes[k as usize].bounds)));
-                let near = usize::from(children[1].1 < children[0].1);
-                stack[height] = children[1 - near];
-                stack[height + 1] = children[near];
+                let (one, other) = (index + 1, node.second);
+                let one = (one, away(self.nodes[one as usize].bounds));
+                let other = (other, away(self.nodes[other as usize].bounds));
+                let (near, far) = if other.1 < one.1 { (other, one) } else { (one, other) };
+                stack[height] = far;
+                stack[height + 1] = near;
                 height += 2;
                 continue;
             }
