@@ -289,14 +289,15 @@ impl Work {
     /// The segments that cross another one, in order.
     fn crossing(&self) -> Vec<usize> {
         let index = self.index();
-        let mut crosses = vec![false; self.segments.len()];
-        for s in 0..self.segments.len() {
+        let crosses = |s: usize| {
             let [a, b] = self.ends(s);
+            let mut crosses = false;
             index.in_box(Rect::around([a, b]), |r| {
                 let [c, d] = self.ends(r);
-                crosses[s] |= r != s && segments_meet(a, b, c, d) == Meeting::Cross;
+                crosses |= segments_meet(a, b, c, d) == Meeting::Cross;
             });
-        }
-        (0..crosses.len()).filter(|&s| crosses[s]).collect()
+            crosses
+        };
+        (0..self.segments.len()).filter(|&s| crosses(s)).collect()
     }
 }

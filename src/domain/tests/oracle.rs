@@ -206,7 +206,7 @@ fn validation_finds_every_crossing_that_a_loop_finds() {
     let outline: Vec<DVec2> = (0..60)
         .map(|k| DVec2::from_angle(f64::from(k) * 2.3) * (1.0 + f64::from(k % 7)))
         .collect();
-    let pslg = even_odd(&[outline.clone()]);
+    let pslg = even_odd(std::slice::from_ref(&outline));
     let ends: Vec<[DVec2; 2]> = edges(&outline).collect();
     let pairs = (0..ends.len()).flat_map(|r| (r + 1..ends.len()).map(move |s| (r, s)));
     let crossings =
