@@ -1,7 +1,7 @@
 //! `check DOMAIN MESH`: the certificate of a mesh from anywhere.
 
 use super::exit::{Failure, Outcome};
-use super::output::verdict;
+use super::output::{say, verdict};
 use super::values::positive;
 use crate::experiment::prepare::Store;
 use crate::experiment::record::Cell;
@@ -57,12 +57,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
             quality::judge(&domain, &mesh, None)
         }
     };
-    println!("{}", table(&certificate.checks));
+    say(table(&certificate.checks));
     if certificate.excused > 0 {
-        println!(
+        say(format_args!(
             "{} triangles are excused: they touch an input angle under 60°",
             certificate.excused
-        );
+        ));
     }
     verdict(&certificate)
 }

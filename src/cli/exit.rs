@@ -1,5 +1,6 @@
 //! The exit statuses, and errors as one readable message.
 
+use super::output::say_aside;
 use std::fmt::Display;
 use std::process::ExitCode;
 
@@ -46,7 +47,7 @@ impl Failure {
         let handler = miette::MietteHandlerOpts::new().width(120).wrap_lines(false);
         // A second call keeps the first hook, which is the same one.
         let _ = miette::set_hook(Box::new(move |_| Box::new(handler.clone().build())));
-        eprintln!("{:?}", miette::Report::msg(self.message().to_owned()));
+        say_aside(format_args!("{:?}", miette::Report::msg(self.message().to_owned())));
         ExitCode::from(self.status())
     }
 }

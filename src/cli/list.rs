@@ -1,6 +1,7 @@
 //! `list`: what there is to choose from.
 
 use super::exit::Outcome;
+use super::output::say;
 use crate::domain::gallery;
 use crate::experiment::plan::Plan;
 use crate::meshers::MESHERS;
@@ -11,42 +12,44 @@ use std::path::{Path, PathBuf};
 pub const EXPERIMENTS: &str = "experiments";
 
 pub fn run() -> Outcome {
-    println!("Domains");
-    println!(
+    say("Domains");
+    say(format_args!(
         "  {:<16} {:>8} {:>8} {:>9} {:>9}",
         "", "vertices", "segments", "inside", "any side"
-    );
+    ));
     for entry in gallery::ENTRIES {
         if let Some(Ok(domain)) = gallery::domain(entry.name) {
             let (vertices, segments) = (domain.vertices().len(), domain.segments().len());
             let (inside, any) = (domain.smallest_input_angle_deg(), domain.smallest_segment_angle_deg());
-            println!(
+            say(format_args!(
                 "  {:<16} {vertices:>8} {segments:>8} {inside:>8.1}° {any:>8.1}°  {}",
                 entry.name, entry.about
-            );
+            ));
         }
     }
-    println!("  FILE.poly, FILE.geojson\n\nMeshers");
+    say("  FILE.poly, FILE.geojson\n\nMeshers");
     for entry in MESHERS {
-        println!("  {:<16} {}", entry.name, entry.summary);
+        say(format_args!("  {:<16} {}", entry.name, entry.summary));
         for parameter in entry.parameters {
-            println!(
+            say(format_args!(
                 "    --param {}={}  {}",
                 parameter.name, parameter.default, parameter.help
-            );
-            println!("      one of: {}", parameter.values);
+            ));
+            say(format_args!("      one of: {}", parameter.values));
         }
     }
-    println!("\nSpacings");
+    say("\nSpacings");
     for kind in spacing::KINDS {
-        println!("  {kind}");
+        say(format_args!("  {kind}"));
     }
-    println!("  in expressions {{x0}} {{y0}} {{w}} {{h}} stand for corner, width and height of the domain's box");
-    println!("\nExperiments");
+    say(format_args!(
+        "  in expressions {{x0}} {{y0}} {{w}} {{h}} stand for corner, width and height of the domain's box"
+    ));
+    say("\nExperiments");
     for file in experiments() {
         match Plan::read(&file) {
-            Ok(plan) => println!("  {:<28} {}", file.display(), plan.question.trim()),
-            Err(error) => println!("  {error}"),
+            Ok(plan) => say(format_args!("  {:<28} {}", file.display(), plan.question.trim())),
+            Err(error) => say(format_args!("  {error}")),
         }
     }
     Ok(())

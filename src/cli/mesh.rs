@@ -1,7 +1,7 @@
 //! `mesh DOMAIN`: one mesh, its files and its report.
 
 use super::exit::{Failure, Outcome};
-use super::output::{self, Target};
+use super::output::{self, Target, say, say_aside};
 use super::values::{bytes, parameter, positive};
 use crate::experiment::machine;
 use crate::experiment::measure;
@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let store = Store::new(arguments.limit_factor, arguments.repair);
     let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
     for note in prepared.site.domain.notes() {
-        eprintln!("note: {note}");
+        say_aside(format_args!("note: {note}"));
     }
     let run = measure::run(&prepared, &*mesher, &arguments.request()).map_err(|error| match error {
         MeshError::Budget { .. } | MeshError::Declined(_) => Failure::Declined(error.to_string()),
@@ -106,9 +106,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     lines.extend(written.iter().map(|path| format!("wrote {}", path.display())));
     if targets.contains(&Target::Stdout) {
         // Standard output carries the mesh.
-        eprintln!("{}", lines.join("\n"));
+        say_aside(lines.join("\n"));
     } else {
-        println!("{}", lines.join("\n"));
+        say(lines.join("\n"));
     }
     output::verdict(&report.certificate)
 }

@@ -6,7 +6,19 @@ use crate::domain::Domain;
 use crate::files::write_whole;
 use crate::mesh::{Mesh, files};
 use crate::quality::{Certificate, Check};
+use std::fmt::Display;
+use std::io::Write;
 use std::path::{Path, PathBuf};
+
+/// Prints a line to standard output. Whoever reads may have stopped, as `head` does: no reason to stop working.
+pub fn say(text: impl Display) {
+    let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+/// Prints a line to standard error, on the same terms.
+pub fn say_aside(text: impl Display) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
 
 /// Where a mesh goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,7 +57,9 @@ pub fn write(target: &Target, domain: &Domain, mesh: &Mesh) -> Result<Vec<PathBu
     let refused = |path: &Path, cause: std::io::Error| Failure::Input(format!("{}: {cause}", path.display()));
     match target {
         Target::Stdout => {
-            println!("{}", files::json_text(mesh));
+            let mut out = std::io::stdout().lock();
+            let written = writeln!(out, "{}", files::json_text(mesh)).and_then(|()| out.flush());
+            written.map_err(|cause| refused(Path::new("standard output"), cause))?;
             Ok(Vec::new())
         }
         Target::Poly(path) => {
@@ -76,7 +90,7 @@ pub fn verdict(certificate: &Certificate) -> Outcome {
         .collect();
     if certificate.holds {
         let applying = certificate.checks.iter().filter(|check| check.applies).count();
-        eprintln!("certificate: {applying} checks apply and hold");
+        say_aside(format_args!("certificate: {applying} checks apply and hold"));
         Ok(())
     } else {
         Err(Failure::Broken(format!(

@@ -1,5 +1,6 @@
 //! How far a sweep is: a bar with the time left on a terminal, plain lines elsewhere.
 
+use super::output::say_aside;
 use crate::experiment::record::{Outcome, Row};
 use crate::experiment::runner::Watch;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -116,7 +117,7 @@ impl Watch for Progress {
             }
         } else if matters || state.last_line.is_none_or(|last| last.elapsed() >= LINE_EVERY) {
             state.last_line = Some(Instant::now());
-            eprintln!("{}", state.line(row));
+            say_aside(state.line(row));
         }
     }
 }

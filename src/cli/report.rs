@@ -1,6 +1,7 @@
 //! `report`: charts and pages again, from the rows alone.
 
 use super::exit::{Failure, Outcome};
+use super::output::say;
 use crate::report;
 use std::path::PathBuf;
 
@@ -13,6 +14,6 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let page = report::write(&arguments.folder).map_err(Failure::input)?;
-    println!("wrote {}", page.display());
+    say(format_args!("wrote {}", page.display()));
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::exit::{Failure, Outcome};
 use super::list::EXPERIMENTS;
+use super::output::{say, say_aside};
 use super::progress::Progress;
 use super::values::bytes;
 use crate::experiment::expect::{anything_measured, findings};
@@ -97,11 +98,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let rows_file = folder.join(rows_name(arguments.shard));
     let mut journal = Journal::open(&rows_file).map_err(Failure::input)?;
     if journal.cut_off > 0 {
-        eprintln!(
+        say_aside(format_args!(
             "{}: cut off {} bytes of an unfinished last line",
             rows_file.display(),
             journal.cut_off
-        );
+        ));
     }
     start_anew_if_needed(arguments.fresh, &cells, &mut journal, &provenance)?;
     arguments.run_pending(&plan, &cells, &store, &mut journal, &provenance)?;
@@ -109,10 +110,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
         .settle(cells.iter().map(|planned| planned.key.as_str()))
         .map_err(Failure::input)?;
     if let Some(shard) = arguments.shard {
-        println!(
+        say(format_args!(
             "shard {} of {} is done; `sweep merge` joins the shards",
             shard.number, shard.of
-        );
+        ));
         return Ok(());
     }
     let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
@@ -136,7 +137,7 @@ impl Arguments {
     ) -> Outcome {
         let done = cells.iter().filter(|planned| runner::is_done(planned, journal)).count();
         if done == cells.len() {
-            println!("all {done} cells have rows; --fresh measures them anew");
+            say(format_args!("all {done} cells have rows; --fresh measures them anew"));
             return Ok(());
         }
         let mut tasks = tasks(plan, cells, store)?;
@@ -151,7 +152,7 @@ impl Arguments {
         tasks.retain(|task| !task.units.is_empty());
         let units = || tasks.iter().flat_map(|task| &task.units);
         let pending = units().map(|unit| unit.cells.len()).sum();
-        println!("{}: {pending} cells to run, {done} have rows", plan.name);
+        say(format_args!("{}: {pending} cells to run, {done} have rows", plan.name));
         let available = || {
             let free = machine::available_memory_bytes().unwrap_or(UNKNOWN_MEMORY);
             (free as f64 * MEMORY_SHARE) as u64
@@ -188,10 +189,10 @@ fn start_anew_if_needed(fresh: bool, cells: &[PlannedCell], journal: &mut Journa
         return Ok(());
     };
     if let Some(kept) = journal.set_aside(&provenance.date).map_err(Failure::input)? {
-        println!(
+        say(format_args!(
             "starting anew ({reason}); the rows that were there are now {}",
             kept.display()
-        );
+        ));
     }
     Ok(())
 }
@@ -216,21 +217,21 @@ fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -
         );
         for &cell in &unit.cells {
             let verdict = if above { ", probably skipped" } else { "" };
-            println!(
+            say(format_args!(
                 "{}  about {:.0} triangles{verdict}",
                 cells[cell].key, unit.guessed_triangles
-            );
+            ));
         }
     }
-    println!(
+    say(format_args!(
         "{}: {} cells, {meshes} meshes, {skipped} cells probably skipped",
         plan.name,
         cells.len()
-    );
-    println!(
+    ));
+    say(format_args!(
         "about {:.0} s with {threads} side by side; the guess knows the spacing before limiting only",
         seconds
-    );
+    ));
     Ok(())
 }
 
@@ -259,7 +260,7 @@ fn merge(plan: &Plan, results: &Path) -> Outcome {
         for line in shard.lines() {
             journal.append(line.clone()).map_err(Failure::input)?;
         }
-        println!("{}: {} rows", file.display(), shard.lines().len());
+        say(format_args!("{}: {} rows", file.display(), shard.lines().len()));
     }
     journal
         .settle(cells.iter().map(|planned| planned.key.as_str()))
@@ -314,15 +315,15 @@ fn finish(plan: &Plan, folder: &Path, rows: &[Row]) -> Outcome {
         return Err(Failure::NothingMeasured(format!("nothing could be measured: {reason}")));
     }
     let page = report::write(folder).map_err(Failure::input)?;
-    println!("rows, charts and page: {}", page.display());
+    say(format_args!("rows, charts and page: {}", page.display()));
     let findings = findings(&plan.expect, rows);
     for finding in &findings {
-        println!(
+        say(format_args!(
             "{} {}: {}",
             if finding.holds { "held:  " } else { "BROKEN:" },
             finding.expected,
             finding.found
-        );
+        ));
     }
     let broken = findings.iter().filter(|finding| !finding.holds).count();
     if broken > 0 {
