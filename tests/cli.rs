@@ -219,6 +219,20 @@ fn equal_input_gives_equal_bytes() {
 }
 
 #[test]
+fn a_domain_that_crosses_itself_is_mended_on_request() {
+    let folder = folder();
+    fs::write(folder.path().join("crossed.poly"), CROSSED).expect("written");
+    let (_, told) = run(
+        folder.path(),
+        &["mesh", "crossed.poly", "--repair", "--out", "m.node"],
+        0,
+    );
+    assert!(told.contains("repair of crossed"), "{told}");
+    run(folder.path(), &["check", "crossed.poly", "m.node"], 2);
+    run(folder.path(), &["check", "crossed.poly", "m.node", "--repair"], 0);
+}
+
+#[test]
 fn a_budget_stops_with_the_reason_and_leaves_nothing() {
     let folder = folder();
     let (_, message) = run(

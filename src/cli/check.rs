@@ -1,7 +1,7 @@
 //! `check DOMAIN MESH`: the certificate of a mesh from anywhere.
 
 use super::exit::{Failure, Outcome};
-use super::output::{say, verdict};
+use super::output::{say, say_notes, verdict};
 use super::values::positive;
 use crate::experiment::prepare::Store;
 use crate::experiment::record::Cell;
@@ -45,17 +45,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
             .ok_or_else(|| Failure::Input(format!("there is no mesher `{name}`; `biting list` shows them")))?,
         None => &[],
     };
+    let domain = store.domain(&arguments.domain).map_err(Failure::input)?;
+    say_notes(&store, &domain);
     let (_, certificate) = match (&arguments.spacing, arguments.t, arguments.c_b) {
         (Some(spacing), Some(t), Some(c_b)) => {
-            let prepared = store
-                .prepare_for_t(&arguments.cell(spacing, t, c_b))
-                .map_err(Failure::input)?;
-            quality::judge(&prepared.site.domain, &mesh, Some(&prepared.bounds(c_b, guarantees)))
+            let cell = arguments.cell(spacing, t, c_b);
+            let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
+            quality::judge(&domain, &mesh, Some(&prepared.bounds(c_b, guarantees)))
         }
-        _ => {
-            let domain = store.domain(&arguments.domain).map_err(Failure::input)?;
-            quality::judge(&domain, &mesh, None)
-        }
+        _ => quality::judge(&domain, &mesh, None),
     };
     say(table(&certificate.checks));
     if certificate.excused > 0 {

@@ -85,9 +85,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
     let store = Store::new(arguments.limit_factor, arguments.repair);
     let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
-    for note in prepared.site.domain.notes() {
-        say_aside(format_args!("note: {note}"));
-    }
+    output::say_notes(&store, &prepared.site.domain);
     let run = measure::run(&prepared, &*mesher, &arguments.request()).map_err(|error| match error {
         MeshError::Budget { .. } | MeshError::Declined(_) => Failure::Declined(error.to_string()),
         MeshError::Spacing { .. } | MeshError::Triangulation(_) => Failure::input(error),

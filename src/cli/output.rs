@@ -3,6 +3,7 @@
 use super::exit::{Failure, Outcome};
 use crate::charts;
 use crate::domain::Domain;
+use crate::experiment::prepare::Store;
 use crate::files::write_whole;
 use crate::mesh::{Mesh, files};
 use crate::quality::{Certificate, Check};
@@ -18,6 +19,16 @@ pub fn say(text: impl Display) {
 /// Prints a line to standard error, on the same terms.
 pub fn say_aside(text: impl Display) {
     let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// Tells what was mended in a domain, and what reading it brought to light.
+pub fn say_notes(store: &Store, domain: &Domain) {
+    for changes in store.repairs() {
+        say_aside(format_args!("repair of {}: {changes}", domain.name()));
+    }
+    for note in domain.notes() {
+        say_aside(format_args!("note: {note}"));
+    }
 }
 
 /// Where a mesh goes.

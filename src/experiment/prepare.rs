@@ -2,7 +2,7 @@
 
 use super::record::Cell;
 use super::work::Outlook;
-use crate::domain::{self, Domain, DomainError};
+use crate::domain::{self, Domain, DomainError, RepairReport};
 use crate::geometry::DVec2;
 use crate::quality::Bounds;
 use crate::spacing::{self, Options, Spacing, SpacingError};
@@ -108,6 +108,7 @@ impl<K: Ord, T: Clone> Shelf<K, T> {
 pub struct Store {
     limit_factor: Option<f64>,
     repair: bool,
+    repairs: Mutex<Vec<RepairReport>>,
     domains: Shelf<String, Arc<Domain>>,
     sites: Shelf<String, Arc<Site>>,
     bases: Shelf<(String, String, bool), Arc<Base>>,
@@ -119,6 +120,7 @@ impl Store {
         Self {
             limit_factor,
             repair,
+            repairs: Mutex::new(Vec::new()),
             domains: Shelf::new(),
             sites: Shelf::new(),
             bases: Shelf::new(),
@@ -130,7 +132,23 @@ impl Store {
     /// # Errors
     /// [`PrepareError::Domain`].
     pub fn domain(&self, name: &str) -> Result<Arc<Domain>, PrepareError> {
-        self.domains.get(name.to_owned(), || Ok(Arc::new(domain::load(name)?)))
+        self.domains.get(name.to_owned(), || {
+            if !self.repair {
+                return Ok(Arc::new(domain::load(name)?));
+            }
+            let (mended, changes) = domain::repair(domain::read(name)?);
+            let domain = Domain::new(mended)?;
+            self.repairs
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .push(changes);
+            Ok(Arc::new(domain))
+        })
+    }
+
+    /// What was mended so far, by domain in the order in which they were read.
+    pub fn repairs(&self) -> Vec<RepairReport> {
+        self.repairs.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Makes the domains and spacings of all cells, side by side. What is wrong with one is told when it is asked for.
