@@ -20,11 +20,16 @@
 //! |---|---|---|---|
 //! | `packing-disjoint` | Lemma 5.4 | ‖x − y‖ ≥ c_p (f(x) + f(y)), c_p = c_b / (2 + t) | f ≤ lfs, c_b ≤ 1 |
 //! | `coverage` | Theorem 5.5 | every point of Ω is in some closed B(x, c_b f(x)) | t < 1 |
-//! | `min-angle` | Theorem 6.8 | sin θ ≥ 1/2 − t | f ≤ lfs, c_b ≤ 1, t ≤ 1/3, no angle under 90° |
+//! | `boundary-height` | Lemmas 6.3, 6.4 | circles of neighbouring boundary vertices meet (9) · radius above the boundary | f ≤ lfs, c_b ≤ 1, t ≤ 1/3, no angle under 90° |
+//! | `min-angle` | Theorem 6.8 | sin θ ≥ 1/2 − t | the same, and no `low_head_on` |
 //! | `nn-vertex-lower`, `-upper` | Lemma 5.7 | c_b (1 − t) f ≤ nn ≤ 2 c_b / (1 − t) f at vertices | f ≤ lfs, c_b ≤ 1, t < 1 |
 //! | `nn-point-lower`, `-upper` | Lemma 5.8 | c_b / (2 + 2t) f ≤ nn ≤ (3 − t) c_b / (1 − t)² f elsewhere | the same |
 //! | `vertices-lower` | follows from 5.5 | vertices ≥ (1 − t)² I / (π c_b²) | t < 1 |
 //! | `vertices-upper` | follows from 5.4 | vertices, by share of packing circle, ≤ 4 (1 + t)² I / (π c_b²) | f ≤ lfs, c_b ≤ 1 |
+//!
+//! `low_head_on` counts the input segments that the circles of their two input vertices cover between them, meeting
+//! lower than (9): a case that the paper excludes without saying so, possible only where c_b + t > 1 (`protection.rs`
+//! has the reason).
 //!
 //! What a bound needs is [`Hypotheses`]: a check whose hypotheses fail, or that the mesher does not guarantee, is still
 //! measured, but `applies` is false. No angle under 90° means none between neighbouring segments, inside *or outside*:
@@ -51,6 +56,7 @@ mod boundary;
 mod coverage;
 mod discs;
 mod parallel;
+mod protection;
 mod shape;
 mod spread;
 mod statistics;
@@ -151,6 +157,10 @@ pub struct Certificate {
     pub holds: bool,
     /// Triangles excused from the angle bound since they touch an input vertex with an inside angle under 60°.
     pub excused: usize,
+    /// Input segments bitten at their two vertices only, whose circles meet lower than Lemma 6.4 would have it; a
+    /// hypothesis of Theorem 6.8 that the paper does not state. 0 without a spacing.
+    #[serde(default)]
+    pub low_head_on: usize,
     /// All checks.
     pub checks: Vec<Check>,
 }
@@ -183,17 +193,27 @@ pub struct Hypotheses {
     pub lfs_cap: bool,
     /// Smallest angle between neighbouring segments on any side, inside or out, degrees; 360 if none.
     pub smallest_segment_angle_deg: f64,
+    /// Input segments bitten at their two vertices only, whose circles meet lower than (9).
+    pub low_head_on: usize,
 }
 
 impl Hypotheses {
-    /// Of a domain and bounds.
-    pub fn of(domain: &Domain, bounds: &Bounds) -> Self {
+    /// Of a domain, bounds, and what the mesh shows at the boundary.
+    pub fn of(domain: &Domain, bounds: &Bounds, low_head_on: usize) -> Self {
         Self {
             t: bounds.c_b * bounds.spacing.lipschitz(),
             c_b: bounds.c_b,
             lfs_cap: bounds.lfs_cap,
             smallest_segment_angle_deg: domain.smallest_segment_angle_deg(),
+            low_head_on,
         }
+    }
+
+    /// What §6 assumes of domain and t.
+    fn of_section_6(&self) -> bool {
+        self.vertices_apart()
+            && self.t <= 1.0 / 3.0
+            && self.smallest_segment_angle_deg >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
     }
 
     /// Circles around input vertices hold no other input vertex (Lemma 5.1).
@@ -206,11 +226,8 @@ impl Hypotheses {
         match claim {
             "packing-disjoint" | "vertices-upper" => self.vertices_apart(),
             "coverage" | "vertices-lower" => self.t < 1.0,
-            "min-angle" => {
-                self.vertices_apart()
-                    && self.t <= 1.0 / 3.0
-                    && self.smallest_segment_angle_deg >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
-            }
+            "boundary-height" => self.of_section_6(),
+            "min-angle" => self.of_section_6() && self.low_head_on == 0,
             _ => self.vertices_apart() && self.t < 1.0,
         }
     }
@@ -233,12 +250,14 @@ fn certificate(subject: &subject::Subject) -> Certificate {
     let mut checks = structure::checks(subject);
     if let Some(sizes) = &subject.sizes {
         checks.extend(coverage::checks(subject, sizes));
+        checks.push(sizes.heights.check(sizes.applies("boundary-height")));
         checks.push(angle::check(subject, sizes));
         checks.extend(spread::checks(subject, sizes));
     }
     Certificate {
         holds: checks.iter().all(|check| check.holds || !check.applies),
         excused: subject.excused,
+        low_head_on: subject.sizes.as_ref().map_or(0, |sizes| sizes.hypotheses.low_head_on),
         checks,
     }
 }

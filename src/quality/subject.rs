@@ -2,6 +2,7 @@
 
 use super::boundary::Boundary;
 use super::discs::DiscTree;
+use super::protection::Heights;
 use super::{Bounds, Hypotheses, parallel};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
@@ -34,6 +35,8 @@ pub struct Sizes<'a> {
     pub circles: DiscTree,
     /// Distance from each mesh vertex to the nearest other one.
     pub nn: Vec<f64>,
+    /// How high the circles of neighbouring boundary vertices meet.
+    pub heights: Heights,
 }
 
 impl<'a> Subject<'a> {
@@ -52,7 +55,7 @@ impl<'a> Subject<'a> {
             .iter()
             .filter(|triangle| triangle.iter().any(|k| acute[*k as usize]))
             .count();
-        let sizes = bounds.map(|bounds| Sizes::new(domain, mesh, &adjacency, *bounds));
+        let sizes = bounds.map(|bounds| Sizes::new(domain, mesh, &adjacency, &boundary, *bounds));
         Self {
             domain,
             mesh,
@@ -81,20 +84,22 @@ fn midpoint(mesh: &Mesh, adjacency: &Adjacency, e: usize) -> DVec2 {
 }
 
 impl<'a> Sizes<'a> {
-    fn new(domain: &Domain, mesh: &Mesh, adjacency: &Adjacency, bounds: Bounds<'a>) -> Self {
+    fn new(domain: &Domain, mesh: &Mesh, adjacency: &Adjacency, boundary: &Boundary, bounds: Bounds<'a>) -> Self {
         let at = |x: DVec2| bounds.spacing.at(x);
         let at_vertex = parallel::map(mesh.points.len(), |k| at(mesh.points[k]));
         let at_midpoint = parallel::map(adjacency.edges().len(), |e| at(midpoint(mesh, adjacency, e)));
         let radius = |f: &f64| bounds.c_b * f * (1.0 + CERTIFICATE);
         let circles = DiscTree::new(mesh.points.iter().copied().zip(at_vertex.iter().map(radius)));
         let nn = parallel::map(mesh.points.len(), |k| circles.second_nearest(mesh.points[k]));
+        let heights = Heights::measure(domain, mesh, adjacency, boundary, &bounds, &at_vertex);
         Self {
             bounds,
-            hypotheses: Hypotheses::of(domain, &bounds),
+            hypotheses: Hypotheses::of(domain, &bounds, heights.low_head_on),
             at_vertex,
             at_midpoint,
             circles,
             nn,
+            heights,
         }
     }
 

@@ -31,9 +31,10 @@ const UNIFORM: Linear = Linear {
     slope: DVec2::ZERO,
 };
 
-const CLAIMS: [&str; 9] = [
+const CLAIMS: [&str; 10] = [
     "packing-disjoint",
     "coverage",
+    "boundary-height",
     "min-angle",
     "nn-vertex-lower",
     "nn-vertex-upper",
@@ -98,7 +99,7 @@ fn broken(domain: &Domain, mesh: &Mesh, bounds: Option<&Bounds>) -> Vec<String> 
 
 #[test]
 fn a_good_mesh_has_a_whole_certificate() {
-    let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&UNIFORM, 0.6)));
+    let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&UNIFORM, 0.7)));
     assert!(certificate.holds, "{certificate:#?}");
     assert_eq!(certificate.checks.len(), 8 + CLAIMS.len());
     assert!(
@@ -109,7 +110,7 @@ fn a_good_mesh_has_a_whole_certificate() {
     );
     let worst = |claim: &str| certificate.check(claim).unwrap().worst.unwrap();
     let near = |x: f64, y: f64| (x - y).abs() < 1e-12;
-    assert!(near(worst("packing-disjoint"), 0.5f64.sqrt() / 0.6));
+    assert!(near(worst("packing-disjoint"), 0.5f64.sqrt() / 0.7));
     assert_eq!(worst("coverage"), 0.0);
     assert!(near(worst("min-angle"), 45.0));
     assert!(near(worst("nn-vertex-lower"), 0.5f64.sqrt()) && near(worst("nn-vertex-upper"), 0.5f64.sqrt()));
@@ -252,9 +253,17 @@ fn checks_apply_only_under_their_hypotheses() {
         c_b: 0.5,
         lfs_cap: true,
         smallest_segment_angle_deg: 90.0,
+        low_head_on: 0,
     };
     let implied = |hypotheses: Hypotheses| CLAIMS.into_iter().filter(|claim| hypotheses.imply(claim)).count();
-    assert_eq!(implied(right), 9);
+    assert_eq!(implied(right), 10);
+    assert_eq!(
+        implied(Hypotheses {
+            low_head_on: 1,
+            ..right
+        }),
+        9
+    );
     assert_eq!(
         implied(Hypotheses {
             smallest_segment_angle_deg: 80.0,
@@ -429,4 +438,25 @@ fn the_result_does_not_depend_on_threads() {
         pool.install(|| judge(&domain, &mesh, Some(&bounds(&spacing, 1.0))))
     };
     assert_eq!(run(1), run(4));
+}
+
+#[test]
+fn circles_that_meet_low_are_a_hypothesis_on_whole_segments_and_a_fault_on_cut_ones() {
+    let square = domain(&SQUARE, &[]);
+    let whole = fan(p(0.5, 0.5));
+    for (c_b, low) in [(0.51, 4), (0.7, 0)] {
+        let (_, certificate) = judge(&square, &whole, Some(&bounds(&UNIFORM, c_b)));
+        let check = certificate.check("boundary-height").unwrap();
+        assert!(check.holds, "c_b = {c_b}: {check:?}");
+        assert_eq!(certificate.low_head_on, low, "c_b = {c_b}");
+        assert_eq!(certificate.check("min-angle").unwrap().applies, low == 0);
+    }
+    // The lower side cut in its middle: circles of radius 0.26 around its three vertices meet low, and step 4 is at fault.
+    let cut = mesh(
+        &[SQUARE[0], SQUARE[1], SQUARE[2], SQUARE[3], p(0.5, 0.0)],
+        &[[0, 4, 3], [4, 2, 3], [4, 1, 2]],
+    );
+    let (_, certificate) = judge(&square, &cut, Some(&bounds(&UNIFORM, 0.26)));
+    let check = certificate.check("boundary-height").unwrap();
+    assert!(!check.holds && check.broken == 2 && check.applies, "{check:?}");
 }

@@ -152,6 +152,7 @@ fn certificate(smallest: f64, bound: f64) -> Certificate {
     Certificate {
         holds,
         excused: 0,
+        low_head_on: 0,
         checks: vec![
             check("orientation", "", 1.0, 0.0, true),
             check("min-angle", "Theorem 6.8", smallest, bound, holds),

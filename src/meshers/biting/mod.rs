@@ -75,6 +75,7 @@ pub(super) const ENTRY: Entry = Entry {
     guarantees: &[
         "packing-disjoint",
         "coverage",
+        "boundary-height",
         "min-angle",
         "nn-vertex-lower",
         "nn-vertex-upper",

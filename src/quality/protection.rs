@@ -1,0 +1,99 @@
+//! How high above the boundary the circles of neighbouring boundary vertices meet (§6.2), which Theorem 6.8 rests on.
+//!
+//! Lemmas 6.3 and 6.4 bound that height where one of the two centres was put there by step 4: on the other's circle,
+//! or in the middle of a gap. Nothing bounds it where step 4 had nothing to do, since the circles of the two input
+//! vertices of a segment already cover it between them: they may overlap by as little as one likes, and the front vertex
+//! above their overlap then makes a flat triangle with them. The paper excludes that case without saying so. It cannot
+//! occur where c_b + t ≤ 1: with m the middle of a segment of length L, f(m) ≤ lfs(m) ≤ L/2, so the two radii are at
+//! most c_b (L/2 + α L/2) each and add up to at most (c_b + t) L.
+
+use super::boundary::{Boundary, NO_SEGMENT};
+use super::tally::{Tally, Worst};
+use super::{Bounds, Check};
+use crate::domain::Domain;
+use crate::geometry::tolerance::CERTIFICATE;
+use crate::mesh::{Adjacency, Mesh};
+
+/// The heights at which neighbouring boundary circles meet, over the smaller of their radii.
+pub struct Heights {
+    /// Where step 4 put one of the two.
+    protected: Tally,
+    /// Segments bitten at their two input vertices only, whose circles meet lower than the bound.
+    pub low_head_on: usize,
+    bound: f64,
+}
+
+/// Equation (9), the smaller of the bounds of Lemmas 6.3 and 6.4: (1 − t) √((t² − 4t + 7)(1 − t²)) / 4.
+fn height_bound(t: f64) -> f64 {
+    (1.0 - t) * ((t * t - 4.0 * t + 7.0) * (1.0 - t * t)).max(0.0).sqrt() / 4.0
+}
+
+impl Heights {
+    /// Of all mesh edges on input segments.
+    pub fn measure(
+        domain: &Domain,
+        mesh: &Mesh,
+        adjacency: &Adjacency,
+        boundary: &Boundary,
+        bounds: &Bounds,
+        at_vertex: &[f64],
+    ) -> Self {
+        let bound = height_bound((bounds.c_b * bounds.spacing.lipschitz()).min(1.0));
+        let mut heights = Self {
+            protected: Tally::new(Worst::Smallest),
+            low_head_on: 0,
+            bound,
+        };
+        for (edge, &segment) in adjacency.edges().iter().zip(&boundary.segment) {
+            if segment == NO_SEGMENT {
+                continue;
+            }
+            let [x, y] = edge.ends.map(|k| mesh.points[k as usize]);
+            let [a, b] = edge.ends.map(|k| bounds.c_b * at_vertex[k as usize]);
+            let height = meeting_height(x.distance(y), a, b) / a.min(b);
+            let is_low = height < bound * (1.0 - CERTIFICATE);
+            let input = &domain.segments()[segment as usize];
+            let is_whole = edge
+                .ends
+                .iter()
+                .all(|&k| [input.a, input.b].iter().any(|&v| boundary.vertex[v] == Some(k)));
+            if is_whole && is_low {
+                heights.low_head_on += 1;
+            } else {
+                heights.protected.see(height, x.midpoint(y), is_low);
+            }
+        }
+        heights
+    }
+
+    /// `boundary-height`.
+    pub fn check(&self, applies: bool) -> Check {
+        self.protected
+            .clone()
+            .check("boundary-height", "Lemmas 6.3 and 6.4", applies, self.bound)
+    }
+}
+
+/// How far from the line through their centres two circles at that distance meet; 0 where they do not.
+fn meeting_height(distance: f64, a: f64, b: f64) -> f64 {
+    let along = 0.5 * (distance + (a - b) * (a + b) / distance);
+    ((a - along) * (a + along)).max(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn circles_meet_where_pythagoras_says() {
+        assert!((meeting_height(6.0, 5.0, 5.0) - 4.0).abs() < 1e-15);
+        assert!((meeting_height(21.0, 13.0, 20.0) - 12.0).abs() < 1e-14);
+        assert_eq!(meeting_height(3.0, 1.0, 1.0), 0.0);
+    }
+
+    #[test]
+    fn the_bound_is_the_papers_at_zero() {
+        assert!((height_bound(0.0) - 7f64.sqrt() / 4.0).abs() < 1e-15);
+        assert_eq!(height_bound(1.0), 0.0);
+    }
+}
