@@ -348,6 +348,36 @@ fn a_killed_sweep_is_resumed() {
 }
 
 #[test]
+fn a_sweep_killed_for_real_is_resumed() {
+    let folder = planned("");
+    run(folder.path(), &["sweep", "try.toml", "--results", "calm"], 0);
+    let whole = rows(&folder.path().join("calm/try/rows.jsonl"));
+    let file = rows_file(folder.path());
+    let program = assert_cmd::cargo::cargo_bin!("biting");
+    for kills in 1..=3 {
+        let mut sweep = std::process::Command::new(program)
+            .args(["sweep", "try.toml", "--threads", "1"])
+            .current_dir(folder.path())
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let enough = |bytes: &Vec<u8>| bytes.iter().filter(|&&byte| byte == b'\n').count() >= 3 * kills;
+        while !fs::read(&file).is_ok_and(|bytes| enough(&bytes)) {
+            if sweep.try_wait().expect("known").is_some() {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        // A sweep that was faster than the kill has done no worse.
+        let _ = sweep.kill();
+        sweep.wait().expect("ended");
+    }
+    run(folder.path(), &["sweep", "try.toml"], 0);
+    assert_eq!(rows(&file), whole);
+}
+
+#[test]
 fn shards_join_to_the_same_rows() {
     let folder = planned("");
     run(folder.path(), &["sweep", "try.toml"], 0);

@@ -50,7 +50,8 @@ pub struct Arguments {
     /// Cells that run side by side [default: all cores]
     #[arg(long)]
     threads: Option<usize>,
-    /// Memory that cells running side by side may use together, such as 4G [default: most of what is free]
+    /// Memory that cells running side by side may use together, such as 4G; a cell that needs more is skipped
+    /// [default: most of what is free]
     #[arg(long, value_name = "BYTES", value_parser = bytes)]
     max_memory: Option<u64>,
 }

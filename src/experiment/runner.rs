@@ -41,7 +41,7 @@ pub struct Sweep<'a> {
     pub provenance: &'a Provenance,
     /// How many cells run side by side.
     pub threads: usize,
-    /// Memory that cells running side by side may use together, bytes.
+    /// Memory that cells running side by side may use together, bytes; a cell that needs more is skipped.
     pub memory_bytes: u64,
     /// Told of every row.
     pub watch: &'a dyn Watch,
@@ -60,8 +60,8 @@ pub fn weight(unit: &Unit, cells: &[PlannedCell]) -> f64 {
     }
 }
 
-/// Whether the journal has a final row for that cell: skipped ones are run again when the budget has grown, timed ones
-/// when repeats are missing.
+/// Whether the journal has a final row for that cell: skipped ones are tried again where the budget would let them, timed
+/// ones where repeats are missing.
 pub fn is_done(planned: &PlannedCell, journal: &Journal) -> bool {
     journal.get(&planned.key).is_some_and(|row| match row.outcome {
         Outcome::Skipped => row.estimated_triangles > planned.budget.triangles,
@@ -198,6 +198,12 @@ impl Sweep<'_> {
         );
         if estimated > limit {
             return too_large(estimated, limit);
+        }
+        let bytes = estimated * BYTES_PER_TRIANGLE;
+        if bytes > self.memory_bytes as f64 {
+            let (needed, free) = (bytes / 1e9, self.memory_bytes as f64 / 1e9);
+            let reason = format!("needs about {needed:.1} GB of memory, and may use {free:.1} GB");
+            return Ending::without_report(Outcome::Skipped, reason, estimated);
         }
         let attempt = guarded(|| {
             let (entry, run) = self.mesh(planned, prepared, limit)?;
