@@ -139,15 +139,16 @@ proptest! {
         }
     }
 
-    /// Random closed tours cross themselves; mended, they have the inside of the even-odd rule.
+    /// Random closed tours cross themselves, on a coarse lattice they also run along each other; mended, they have the
+    /// inside of the even-odd rule.
     #[test]
     fn repaired_rings_keep_their_inside(
         rings in prop::collection::vec(prop::collection::vec((0..1000u32, 0..1000u32), 3..12), 1..4),
+        lattice in prop::sample::select(vec![5u32, 1000]),
         points in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64), 50),
     ) {
-        let ring = |ring: Vec<(u32, u32)>| -> Ring {
-            ring.into_iter().map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)) / 1000.0).collect()
-        };
+        let unit = |k: u32| f64::from(k % lattice) / f64::from(lattice);
+        let ring = |ring: Vec<(u32, u32)>| -> Ring { ring.into_iter().map(|(x, y)| DVec2::new(unit(x), unit(y))).collect() };
         let rings: Vec<Ring> = rings.into_iter().map(ring).collect();
         let (mended, _) = repair(even_odd(&rings));
         prop_assert!(faults(&mended).is_empty());
