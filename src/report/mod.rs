@@ -1,6 +1,6 @@
 //! Pages made from the rows alone.
 //!
-//! [`write`] reads `rows.jsonl` of a results folder and writes `README.md` and `charts/` beside it. The same rows give
+//! [`write()`] reads `rows.jsonl` of a results folder and writes `README.md` and `charts/` beside it. The same rows give
 //! the same bytes, in whatever order they were written.
 
 mod figures;

@@ -38,6 +38,9 @@
 //! # Reference
 //! X.-Y. Li, S.-H. Teng, A. Üngör, "Biting: Advancing Front Meets Sphere Packing".
 
+// The steps are private; their links work in `cargo doc --document-private-items`.
+#![allow(rustdoc::private_intra_doc_links)]
+
 mod boundary;
 mod front;
 mod interior;
