@@ -94,6 +94,9 @@ impl Figure for Sheet<'_> {
     }
 }
 
+/// Shorter edges would hide the colours between them; drawing units.
+const SHORTEST_EDGE: i32 = 5 * FINE;
+
 /// Draws triangles, their edges where there is room for them, and the input segments.
 fn draw<DB: DrawingBackend>(area: &Area<DB>, mesh: &Mesh) -> Drawn {
     let view = View::of(mesh, area.dim_in_pixel());
@@ -102,11 +105,14 @@ fn draw<DB: DrawingBackend>(area: &Area<DB>, mesh: &Mesh) -> Drawn {
         let smallest = angles_deg(corners).into_iter().fold(60.0, f64::min);
         area.draw(&Polygon::new(places, band(smallest).filled()))?;
     }
-    if view.median_edge(mesh) > 4.0 * f64::from(FINE) {
-        let edge = style::stroke(RGBColor(60, 60, 60), 1);
-        for [a, b] in edges(mesh) {
-            let ends = [a, b].map(|v| view.place(mesh.points[v as usize])).to_vec();
-            area.draw(&PathElement::new(ends, edge))?;
+    let edge = style::stroke(RGBColor(60, 60, 60), 1);
+    for ends in edges(mesh)
+        .into_iter()
+        .map(|ends| ends.map(|v| view.place(mesh.points[v as usize])))
+    {
+        let [(ax, ay), (bx, by)] = ends;
+        if (ax - bx).abs().max((ay - by).abs()) >= SHORTEST_EDGE {
+            area.draw(&PathElement::new(ends.to_vec(), edge))?;
         }
     }
     let line = style::stroke(INK, FINE as u32 + 1);
@@ -157,12 +163,5 @@ impl View {
             (self.middle.x + moved.x).round() as i32,
             (self.middle.y - moved.y).round() as i32,
         )
-    }
-
-    /// The median edge in drawing units.
-    fn median_edge(&self, mesh: &Mesh) -> f64 {
-        let length = |[a, b]: [u32; 2]| mesh.points[a as usize].distance(mesh.points[b as usize]);
-        let lengths = edges(mesh).into_iter().map(length).collect();
-        crate::experiment::summary::median(lengths).unwrap_or(0.0) * self.scale
     }
 }
