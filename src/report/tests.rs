@@ -2,9 +2,12 @@
 
 use super::findings::{broken_checks, claims, fewest, margins, of_group, order_findings, slopes, tally};
 use super::fixture::{lines, measured, row, sweep};
-use super::{ReportError, page, read, sections, write};
-use crate::experiment::record::{Outcome, Row};
+use super::{ReportError, page, sections, write};
+use crate::experiment::prepare::Store;
+use crate::experiment::record::{Outcome, Provenance, Row};
 use crate::experiment::summary::{Grid, frontier};
+use crate::experiment::{measure, runner};
+use crate::meshers::{Budget, Request};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -140,7 +143,7 @@ fn a_failure_shows_on_the_page() {
     rows[4].outcome = Outcome::Failed;
     rows[4].reason = Some("no triangle | at (0.1, 0.2)".into());
     assert_eq!(tally(&rows).failed, 1);
-    let text = page::page(&rows, &[], &page::Heading::default());
+    let text = page::page(&rows, &[], &[], &page::Heading::default());
     assert!(text.contains("| grid | 5 of 6 | 0 | 0 | 1 of 6 |"), "{text}");
     assert!(text.contains("| b | 1 of 2 | 0 | 0 | 1 of 2 |"), "{text}");
     assert!(
@@ -153,24 +156,47 @@ fn a_failure_shows_on_the_page() {
 
 #[test]
 fn a_page_of_nothing_measured() {
-    let text = page::page(&[cell("a", 0.25, 1.0)], &[], &page::Heading::default());
+    let text = page::page(&[cell("a", 0.25, 1.0)], &[], &[], &page::Heading::default());
     assert!(text.contains("Skipped 1 of 1") && !text.contains("NaN"), "{text}");
 }
 
+/// A row measured in earnest.
+fn in_earnest(domain: &str) -> Row {
+    let mut row = cell(domain, 0.25, 0.5);
+    let prepared = Store::new(None, false).prepare_for_t(&row.cell).unwrap();
+    let (entry, mesher) = runner::mesher(&row.cell).unwrap();
+    let request = Request {
+        c_b: 0.5,
+        seed: 0,
+        threads: 1,
+        budget: Budget::default(),
+    };
+    let run = measure::run(&prepared, &*mesher, &request).unwrap();
+    row.report = Some(measure::judge(&prepared, &row.cell, entry, &run, &Provenance::default()));
+    row.outcome = Outcome::Measured;
+    row
+}
+
 #[test]
-fn reading_keeps_the_last_of_a_key_and_drops_a_cut_line() {
+fn a_mesh_is_drawn_again_if_it_is_the_same() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("rows.jsonl");
-    let text = lines(&[cell("a", 0.25, 1.0), measured(cell("a", 0.25, 1.0), 90.0, 10, 1.0)]);
-    std::fs::write(&path, text.clone() + "{\"key\": \"gr").unwrap();
-    let rows = read(&path).unwrap();
-    assert_eq!((rows.len(), rows[0].outcome), (1, Outcome::Measured));
-    std::fs::write(&path, text + "{}\n").unwrap();
-    assert!(matches!(read(&path), Err(ReportError::Row { line: 3, .. })));
-    assert!(matches!(
-        read(&folder.path().join("none")),
-        Err(ReportError::Read { .. })
-    ));
+    let mut rows = vec![in_earnest("l-shape"), cell("no-such-domain", 0.25, 0.5)];
+    std::fs::write(folder.path().join("rows.jsonl"), lines(&rows)).unwrap();
+    let page = std::fs::read_to_string(write(folder.path()).unwrap()).unwrap();
+    assert!(page.contains("(charts/mesh-l-shape.png)"), "{page}");
+    assert!(folder.path().join("charts/mesh-l-shape.png").is_file());
+    if let Some(report) = &mut rows[0].report {
+        report.fingerprint = "another".into();
+    }
+    std::fs::write(folder.path().join("rows.jsonl"), lines(&rows)).unwrap();
+    let page = std::fs::read_to_string(write(folder.path()).unwrap()).unwrap();
+    assert!(!page.contains("charts/mesh-"), "{page}");
+}
+
+#[test]
+fn no_rows_are_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(matches!(write(folder.path()), Err(ReportError::Rows(_))));
 }
 
 /// Every file under `folder`, but the rows, by its name.

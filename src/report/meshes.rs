@@ -1,0 +1,77 @@
+//! A picture of a mesh of each domain, made again from its row.
+
+use crate::charts::{ChartError, draw_mesh};
+use crate::experiment::measure::{fingerprint, run};
+use crate::experiment::prepare::Store;
+use crate::experiment::record::{Report, Row};
+use crate::experiment::runner::mesher;
+use crate::experiment::summary::{first_seen, measured};
+use crate::mesh::Mesh;
+use crate::meshers::{Budget, Request};
+use std::path::Path;
+
+/// A picture of the page.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Picture {
+    /// Its file is `charts/NAME.png`.
+    pub(super) name: String,
+    /// The row it shows.
+    pub(super) report: Report,
+}
+
+/// What is shown: where triangles can be seen, near this t and c_b.
+const SHOWN_T: f64 = 0.25;
+const SHOWN_C_B: f64 = 0.5;
+/// A picture of more triangles shows colours only, and takes its time.
+const MOST_TRIANGLES: usize = 60_000;
+
+/// Draws a mesh of each domain of the grid. A row says enough to make its mesh again, and its fingerprint whether that
+/// came out the same; where it did not, on another machine or by a later version, there is no picture.
+pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartError> {
+    let store = Store::new(None, false);
+    let mut pictures = Vec::new();
+    for (row, report) in chosen(rows) {
+        let Some(mesh) = made_again(&store, row).filter(|mesh| fingerprint(mesh) == report.fingerprint) else {
+            continue;
+        };
+        let name: String = row.cell.domain.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+        let name = format!("mesh-{name}");
+        draw_mesh(&mesh, &folder.join(format!("{name}.png")))?;
+        pictures.push(Picture {
+            name,
+            report: report.clone(),
+        });
+    }
+    Ok(pictures)
+}
+
+/// One measured row of each domain: of the grid's first spacing, nearest to what is to be shown.
+fn chosen(rows: &[Row]) -> Vec<(&Row, &Report)> {
+    let grids = super::findings::grids(rows);
+    let Some((_, grid)) = grids.first() else { return Vec::new() };
+    let domains = first_seen(grid.rows.iter().map(|row| row.cell.domain.as_str()));
+    let far = |row: &Row| (row.cell.t - SHOWN_T).abs() + (row.cell.c_b - SHOWN_C_B).abs();
+    let best = |domain: &&str| {
+        let own = grid.rows.iter().filter(|row| row.cell.domain == **domain);
+        let drawn = own.filter_map(|row| Some((*row, measured(row)?)));
+        let drawn = drawn.filter(|(_, report)| report.statistics.triangles <= MOST_TRIANGLES);
+        drawn.min_by(|a, b| far(a.0).total_cmp(&far(b.0)))
+    };
+    domains.iter().filter_map(best).collect()
+}
+
+/// The mesh of a row, if its domain, spacing and mesher are still there.
+fn made_again(store: &Store, row: &Row) -> Option<Mesh> {
+    let prepared = store.prepare_for_t(&row.cell).ok()?;
+    let (_, mesher) = mesher(&row.cell).ok()?;
+    let request = Request {
+        c_b: row.cell.c_b,
+        seed: row.cell.seed,
+        threads: 1,
+        budget: Budget {
+            max_vertices: Some(4 * MOST_TRIANGLES),
+            ..Budget::default()
+        },
+    };
+    Some(run(&prepared, &*mesher, &request).ok()?.mesh)
+}
