@@ -1,12 +1,12 @@
 //! Histograms of the smallest angle of each triangle.
 
 use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
-use super::legend::{Entry, Key, legend, legend_row};
+use super::legend::{Key, legend_row};
 use super::panel::{Axis, Panel};
-use super::style::{self, Marker};
+use super::style;
 use crate::experiment::record::Report;
 use crate::experiment::series::OrderGroup;
-use crate::experiment::summary::{Grid, first_seen, measured};
+use crate::experiment::summary::{Grid, distinct, first_seen};
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
 
@@ -15,15 +15,49 @@ use std::path::Path;
 /// # Errors
 /// [`ChartError`].
 pub fn angles_by_order(groups: &[OrderGroup], stem: &Path) -> Result<(), ChartError> {
-    write_both(&ByOrder { groups }, stem)
+    let orders = first_seen(groups.iter().map(|group| group.order));
+    let spacings = first_seen(groups.iter().map(|group| group.spacing.as_str()));
+    let lines = |order: &str| {
+        let own = |spacing: &&str| {
+            let mut same = groups
+                .iter()
+                .filter(|group| group.order == order && group.spacing == **spacing);
+            same.next().map(|group| shares(&group.reports)).unwrap_or_default()
+        };
+        spacings.iter().map(own).collect()
+    };
+    let figure = Multiples {
+        panels: orders
+            .into_iter()
+            .map(|order| (order.to_string(), lines(order)))
+            .collect(),
+        series: spacings.iter().map(|name| name.to_string()).collect(),
+    };
+    write_both(&figure, stem)
 }
 
-/// Draws, for each t, how triangles spread over smallest angles, over all c_b; one panel for each of `grids`.
+/// Draws, for each t, how triangles spread over smallest angles, over all c_b: one panel a t, one line a grid.
 ///
 /// # Errors
 /// [`ChartError`].
 pub fn angles_by_t(grids: &[(String, Grid)], stem: &Path) -> Result<(), ChartError> {
-    write_both(&ByT { grids }, stem)
+    let ts = distinct(grids.iter().flat_map(|(_, grid)| grid.ts.iter().copied()));
+    let at = |grid: &Grid, t: f64| {
+        let reports = grid
+            .reports()
+            .filter(|(row, _)| row.cell.t == t)
+            .map(|(_, report)| report);
+        shares(&reports.collect::<Vec<_>>())
+    };
+    let panel = |t: f64| {
+        let lines = grids.iter().map(|(_, grid)| at(grid, t)).collect();
+        (format!("t = {}", (t * 1e3).round() / 1e3), lines)
+    };
+    let figure = Multiples {
+        panels: ts.into_iter().map(panel).collect(),
+        series: grids.iter().map(|(name, _)| name.clone()).collect(),
+    };
+    write_both(&figure, stem)
 }
 
 /// Share of triangles a degree, in percent: the mean over meshes, so that a large mesh counts as much as a small one.
@@ -48,73 +82,43 @@ fn steps(shares: &[f64]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-fn top<'a>(all: impl Iterator<Item = &'a Vec<f64>>) -> f64 {
-    all.flatten().copied().fold(1.0, f64::max) * 1.05
+/// Small panels of equal axes, one line a series in each.
+struct Multiples {
+    /// Title of each panel, and the shares of each series in it.
+    panels: Vec<(String, Vec<Vec<f64>>)>,
+    /// Names of the series.
+    series: Vec<String>,
 }
 
-struct ByOrder<'a> {
-    groups: &'a [OrderGroup<'a>],
-}
+/// Most panels side by side.
+const COLUMNS: usize = 4;
 
-impl Figure for ByOrder<'_> {
+impl Figure for Multiples {
+    fn size(&self) -> (u32, u32) {
+        (1200, 40 + 350 * self.panels.len().div_ceil(COLUMNS).max(1) as u32)
+    }
+
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
-        let orders = first_seen(self.groups.iter().map(|group| group.order));
-        let spacings = first_seen(self.groups.iter().map(|group| group.spacing.as_str()));
-        let all: Vec<Vec<f64>> = self.groups.iter().map(|group| shares(&group.reports)).collect();
-        let (plots, key) = area.split_vertically((750 - 40) * FINE);
-        let lines = orders.len().div_ceil(4).max(1);
-        let areas = plots.split_evenly((lines, 4));
-        for (index, (order, area)) in orders.iter().zip(&areas).enumerate() {
-            let below = index + 4 >= orders.len();
-            let x = Axis::linear(if below { "smallest angle (degrees)" } else { "" }, 0.0..60.0, 6);
-            let y = Axis::linear(
-                if index % 4 == 0 { "triangles (% a degree)" } else { "" },
-                0.0..top(all.iter()),
-                5,
-            );
-            let mut panel = Panel::new(area, order, x, y, 56)?;
-            for (group, shares) in self.groups.iter().zip(&all).filter(|(group, _)| group.order == *order) {
-                let series = spacings.iter().position(|name| *name == group.spacing).unwrap_or(0);
+        let (plots, key) = area.split_vertically((self.size().1 as i32 - 40) * FINE);
+        let count = self.panels.len();
+        let all = self.panels.iter().flat_map(|(_, shares)| shares.iter().flatten());
+        let top = all.copied().fold(1.0, f64::max) * 1.05;
+        let areas = plots.split_evenly((count.div_ceil(COLUMNS).max(1), COLUMNS));
+        for (index, ((title, lines), area)) in self.panels.iter().zip(&areas).enumerate() {
+            let is_last = index + COLUMNS >= count;
+            let x = Axis::linear(if is_last { "smallest angle (degrees)" } else { "" }, 0.0..60.0, 6);
+            let label = if index % COLUMNS == 0 {
+                "triangles (% a degree)"
+            } else {
+                ""
+            };
+            let mut panel = Panel::new(area, title, x, Axis::linear(label, 0.0..top, 5), 56)?;
+            for (series, shares) in lines.iter().enumerate() {
                 panel.line(&steps(shares), style::category(series), 3)?;
             }
         }
-        let entries = spacings.iter().enumerate();
-        let entries = entries.map(|(k, name)| (Key::Line(style::category(k)), name.to_string()));
+        let entries = self.series.iter().enumerate();
+        let entries = entries.map(|(k, name)| (Key::Line(style::category(k)), name.clone()));
         legend_row(&key, 62, &entries.collect::<Vec<_>>())
-    }
-}
-
-struct ByT<'a> {
-    grids: &'a [(String, Grid<'a>)],
-}
-
-impl Figure for ByT<'_> {
-    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
-        let (left, right) = area.split_horizontally((1200 - 130) * FINE);
-        let own = |grid: &Grid, t: f64| {
-            let rows = grid.rows.iter().filter(|row| row.cell.t == t);
-            shares(&rows.filter_map(|row| measured(row)).collect::<Vec<_>>())
-        };
-        let all: Vec<Vec<Vec<f64>>> = self
-            .grids
-            .iter()
-            .map(|(_, grid)| grid.ts.iter().map(|t| own(grid, *t)).collect())
-            .collect();
-        let top = top(all.iter().flatten());
-        let areas = left.split_evenly((1, self.grids.len().max(1)));
-        for (((title, _), lines), area) in self.grids.iter().zip(&all).zip(&areas) {
-            let x = Axis::linear("smallest angle of a triangle (degrees)", 0.0..60.0, 6);
-            let mut panel = Panel::new(area, title, x, Axis::linear("triangles (% a degree)", 0.0..top, 6), 70)?;
-            for (index, shares) in lines.iter().enumerate() {
-                panel.line(&steps(shares), style::ordered(index, lines.len()), 2 * FINE as u32)?;
-            }
-        }
-        let ts = self.grids.first().map(|(_, grid)| grid.ts.clone()).unwrap_or_default();
-        let mut entries: Vec<Entry> = vec![(Key::Heading, "t".into())];
-        for (index, t) in ts.iter().enumerate() {
-            let colour = Marker::new(index, style::ordered(index, ts.len())).colour;
-            entries.push((Key::Line(colour), format!("{}", (t * 1e3).round() / 1e3)));
-        }
-        legend(&right, 50, &entries)
     }
 }

@@ -4,8 +4,8 @@ use super::canvas::{Area, Drawn, FINE};
 use super::style::{self, GREY, INK, LABEL, Marker, PALE, SMALL, TITLE};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::{
-    Cartesian2d, ChartBuilder, ChartContext, Color, DashedLineSeries, DrawingBackend, EmptyElement, LineSeries,
-    RGBColor, Rectangle, Text, TextStyle,
+    Cartesian2d, ChartBuilder, ChartContext, Color, DashedLineSeries, DrawingBackend, EmptyElement, LabelAreaPosition,
+    LineSeries, RGBColor, Rectangle, Text, TextStyle,
 };
 use plotters::style::text_anchor::{HPos, VPos};
 use std::ops::Range;
@@ -136,12 +136,12 @@ fn round_step(step: f64) -> f64 {
     factor.unwrap_or(10.0) * power
 }
 
-/// A tick of a logarithmic axis: 0.01, 5, 2000, 10⁶.
+/// A tick of a logarithmic axis: 10⁻⁴, 0.01, 5, 2000, 10⁶.
 fn thousands(value: f64) -> String {
-    if value < 1e5 {
+    if (0.99e-3..0.99e5).contains(&value) {
         return format!("{}", (value * 1e9).round() / 1e9);
     }
-    let power = value.log10().floor() as i32;
+    let power = (value * 1.0001).log10().floor() as i32;
     let digits: String = power.to_string().chars().map(superscript).collect();
     match (value / 10f64.powi(power)).round() {
         1.0 => format!("10{digits}"),
@@ -149,9 +149,11 @@ fn thousands(value: f64) -> String {
     }
 }
 
-fn superscript(digit: char) -> char {
-    let place = digit.to_digit(10).unwrap_or(0) as usize;
-    ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][place]
+fn superscript(character: char) -> char {
+    match character.to_digit(10) {
+        Some(digit) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize],
+        None => '⁻',
+    }
 }
 
 /// From a little under the smallest of `values` to a little over the largest, for a logarithmic axis.
@@ -196,6 +198,8 @@ impl<'a, DB: DrawingBackend + 'a> Panel<'a, DB> {
         let labels = |v| style::text(SMALL, INK, HPos::Center, v);
         chart
             .configure_mesh()
+            // Away from the axis, where the first label of y stands.
+            .set_tick_mark_size(LabelAreaPosition::Bottom, 8 * FINE)
             .axis_style(style::stroke(GREY, FINE as u32))
             .bold_line_style(style::stroke(PALE, FINE as u32))
             .light_line_style(style::stroke(PALE, 1))
@@ -248,5 +252,49 @@ impl<'a, DB: DrawingBackend + 'a> Panel<'a, DB> {
     /// Where a point lies on the whole picture, in drawing units.
     pub(super) fn pixel(&self, point: (f64, f64)) -> (i32, i32) {
         self.chart.backend_coord(&point)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(axis: Axis) -> Vec<String> {
+        axis.named_ticks().into_iter().map(|tick| tick.1).collect()
+    }
+
+    #[test]
+    fn linear_ticks_are_round() {
+        assert_eq!(
+            names(Axis::linear("", 0.0..0.52, 6)),
+            ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5"]
+        );
+        assert_eq!(names(Axis::linear("", 23.0..31.0, 4)), ["24", "26", "28", "30"]);
+    }
+
+    #[test]
+    fn logarithmic_ticks_name_their_powers() {
+        assert_eq!(names(Axis::log("", 0.9..12.0)), ["1", "2", "5", "10"]);
+        assert_eq!(
+            names(Axis::log("", 1e-5..1.1)),
+            ["10⁻⁵", "10⁻⁴", "0.001", "0.01", "0.1", "1"]
+        );
+        assert_eq!(names(Axis::log("", 9e3..1.1e7)), ["10000", "10⁵", "10⁶", "10⁷"]);
+    }
+
+    #[test]
+    fn places_follow_the_scale() {
+        let log = Axis::log("", 1.0..100.0);
+        assert_eq!([1.0, 10.0, 100.0].map(|value| log.map(&value, (0, 200))), [0, 100, 200]);
+        let linear = Axis::linear("", 0.0..10.0, 5);
+        assert_eq!(linear.map(&2.5, (100, 0)), 75);
+    }
+
+    #[test]
+    fn spans_survive_no_values_and_equal_ones() {
+        assert_eq!(span(std::iter::empty()), 0.0..1.0);
+        let range = span([3.0, 3.0, f64::NAN].into_iter());
+        assert!(range.start < 3.0 && range.end > 3.0);
+        assert_eq!(log_span([0.0, -1.0].into_iter()), 0.1..10.0);
     }
 }

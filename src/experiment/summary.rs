@@ -82,8 +82,11 @@ pub fn family(spacing: &str) -> &str {
     spacing.split([':', '(']).next().unwrap_or(spacing)
 }
 
+/// Longer spacings are called by their family's name alone: they would not fit over a chart.
+const LONGEST_TITLE: usize = 24;
+
 /// Splits rows by the family of their spacing: `lfs` first, since the paper's sizes refer to it, then the others in the
-/// order in which they first appear. Each comes with a title: the spacing itself where all are the same, else its family.
+/// order in which they first appear. Each comes with a title: the spacing itself where all are the same and it is short, else its family.
 pub fn by_spacing<'a>(rows: &[&'a Row]) -> Vec<(String, Vec<&'a Row>)> {
     let mut families = first_seen(rows.iter().map(|row| family(&row.cell.spacing)));
     families.sort_by_key(|name| *name != "lfs");
@@ -94,11 +97,8 @@ pub fn by_spacing<'a>(rows: &[&'a Row]) -> Vec<(String, Vec<&'a Row>)> {
             .filter(|row| family(&row.cell.spacing) == name)
             .collect();
         let specs = first_seen(own.iter().map(|row| row.cell.spacing.as_str()));
-        let title = if specs.len() == 1 {
-            specs[0].to_string()
-        } else {
-            format!("{name} (one a domain)")
-        };
+        let short = specs.len() == 1 && specs[0].chars().count() <= LONGEST_TITLE;
+        let title = if short { specs[0] } else { name }.to_string();
         (title, own)
     });
     split.collect()

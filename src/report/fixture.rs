@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 pub(super) const TS: [f64; 7] = [0.05, 0.1, 0.2, 0.25, 0.3333, 0.4, 0.5];
 pub(super) const C_BS: [f64; 7] = [0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
 pub(super) const DOMAINS: [(&str, f64); 5] = [
-    ("unit-square", 90.0),
-    ("annulus", 175.0),
-    ("l-shape", 90.0),
-    ("star", 36.0),
-    ("crete", 22.0),
+    ("made-up-square", 90.0),
+    ("made-up-ring", 175.0),
+    ("made-up-elbow", 90.0),
+    ("made-up-star", 36.0),
+    ("made-up-coast", 22.0),
 ];
 pub(super) const SPACINGS: [&str; 2] = ["lfs", "expr:0.02 + 0.1*x"];
 const ORDERS: [&str; 8] = [

@@ -34,7 +34,12 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartErr
         let Some(mesh) = made_again(&store, row).filter(|mesh| fingerprint(mesh) == report.fingerprint) else {
             continue;
         };
-        let name: String = row.cell.domain.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+        let name: String = row
+            .cell
+            .domain
+            .chars()
+            .map(|c| if c.is_alphanumeric() { c } else { '-' })
+            .collect();
         let name = format!("mesh-{name}");
         draw_mesh(&mesh, &folder.join(format!("{name}.png")))?;
         pictures.push(Picture {
@@ -48,7 +53,9 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartErr
 /// One measured row of each domain: of the grid's first spacing, nearest to what is to be shown.
 fn chosen(rows: &[Row]) -> Vec<(&Row, &Report)> {
     let grids = super::findings::grids(rows);
-    let Some((_, grid)) = grids.first() else { return Vec::new() };
+    let Some((_, grid)) = grids.first() else {
+        return Vec::new();
+    };
     let domains = first_seen(grid.rows.iter().map(|row| row.cell.domain.as_str()));
     let far = |row: &Row| (row.cell.t - SHOWN_T).abs() + (row.cell.c_b - SHOWN_C_B).abs();
     let best = |domain: &&str| {

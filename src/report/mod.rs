@@ -76,7 +76,11 @@ fn read(path: &Path) -> Result<Vec<Row>, JournalError> {
     rows.sort_by(|a, b| {
         let names = |row: &Row| (row.group.clone(), row.cell.spacing.clone(), row.cell.domain.clone());
         let by_t = a.cell.t.total_cmp(&b.cell.t);
-        names(a).cmp(&names(b)).then(by_t).then(a.cell.c_b.total_cmp(&b.cell.c_b)).then(a.key.cmp(&b.key))
+        names(a)
+            .cmp(&names(b))
+            .then(by_t)
+            .then(a.cell.c_b.total_cmp(&b.cell.c_b))
+            .then(a.key.cmp(&b.key))
     });
     Ok(rows)
 }

@@ -2,7 +2,8 @@
 
 use super::figures::{Chart, Section};
 use super::findings::{grids, of_group, spread, tally};
-use super::markdown::{number, parameter, plain, table};
+use super::markdown::{degrees, number, parameter, plain, table};
+use super::meshes::Picture;
 use super::sections;
 use crate::experiment::record::{Outcome, Row};
 use crate::experiment::summary::{first_seen, measured, quantile};
@@ -17,7 +18,7 @@ pub(super) struct Heading {
 }
 
 /// The whole page.
-pub(super) fn page(rows: &[Row], charts: &[Chart], heading: &Heading) -> String {
+pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading: &Heading) -> String {
     let mut text = format!("# Results of `{}`\n\n", heading.name);
     text += "This page and its charts are made from `rows.jsonl` alone, by `biting report`; nothing here is typed.\n\n";
     text += &format!(
@@ -51,7 +52,31 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], heading: &Heading) -> String 
             text += &format!("![{caption}](charts/{name}.png)\n*{caption}* ([SVG](charts/{name}.svg))\n\n");
         }
     }
-    text + &sections::certificate(rows) + &unmeasured(rows)
+    text + &drawings(pictures) + &sections::certificate(rows) + &unmeasured(rows)
+}
+
+/// A mesh of each domain.
+fn drawings(pictures: &[Picture]) -> String {
+    if pictures.is_empty() {
+        return String::new();
+    }
+    let one = |picture: &Picture| {
+        let report = &picture.report;
+        format!(
+            "![Mesh of {0}](charts/{1}.png)\n*`{0}` with `{2}`, t = {3}, c_b = {4}: {5} triangles, smallest angle {6}, \
+             mean smallest angle {7}.*\n\n",
+            report.domain,
+            picture.name,
+            report.spacing,
+            parameter(report.t),
+            parameter(report.c_b),
+            report.statistics.triangles,
+            degrees(report.statistics.min_angle_deg),
+            degrees(report.statistics.mean_min_angle_deg)
+        )
+    };
+    "## Meshes\n\nMade again from their rows, bit for bit by their fingerprints.\n\n".to_string()
+        + &pictures.iter().map(one).collect::<String>()
 }
 
 const DEFAULT_QUESTION: &str = "How good and how small are the meshes that biting makes, as t and c_b vary?";
@@ -94,17 +119,17 @@ fn what_was_run(rows: &[Row], name: &str) -> String {
     text += &table(&head("domain"), &by_domain.collect::<Vec<_>>());
     for (title, grid) in grids(rows) {
         let values = |values: &[f64]| {
-            values
-                .iter()
-                .map(|value| parameter(*value))
-                .collect::<Vec<_>>()
-                .join(", ")
+            let names: Vec<String> = values.iter().map(|value| parameter(*value)).collect();
+            names.join(", ")
         };
-        text += &format!(
-            "Grid with `{title}`: t = {}; c_b = {}.\n\n",
-            values(&grid.ts),
-            values(&grid.c_bs)
-        );
+        let specs = first_seen(grid.rows.iter().map(|row| row.cell.spacing.as_str())).join("`, `");
+        let meant = if specs == title {
+            String::new()
+        } else {
+            format!(", that is `{specs}`,")
+        };
+        let (ts, c_bs) = (values(&grid.ts), values(&grid.c_bs));
+        text += &format!("Grid with spacing `{title}`{meant} over t = {ts}; c_b = {c_bs}.\n\n");
     }
     text
 }

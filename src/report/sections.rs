@@ -159,15 +159,16 @@ pub(super) fn fewest_finding(rows: &[Row]) -> Option<String> {
 
 /// The pair with the fewest triangles for each of some angles, without acute domains and with them.
 pub(super) fn fewest_triangles(rows: &[Row]) -> String {
-    let titles = [
-        "domains without angles under 90° between segments",
-        "domains, triangles at input angles under 60° left out",
-    ];
-    let parts = pairs(rows)
-        .into_iter()
-        .zip(titles)
-        .filter(|(pairs, _)| !pairs.is_empty());
-    parts.map(|(pairs, title)| fewest_table(&pairs, title)).collect()
+    let [plain, all] = pairs(rows);
+    let domains = |pairs: &[Pair]| pairs.iter().map(|pair| pair.domains).max();
+    let mut text = String::new();
+    if !plain.is_empty() {
+        text += &fewest_table(&plain, "domains without angles under 90° between segments");
+    }
+    if domains(&all) > domains(&plain) {
+        text += &fewest_table(&all, "domains, leaving out triangles at input angles under 60°");
+    }
+    text
 }
 
 fn fewest_table(pairs: &[Pair], title: &str) -> String {
@@ -203,7 +204,7 @@ pub(super) fn order_finding(rows: &[Row]) -> Option<String> {
         .into_iter()
         .filter_map(|spacing| best_order(&findings, spacing))
         .collect();
-    (!told.is_empty()).then(|| format!("**Best order of bites.** {}.", told.join("; ")))
+    (!told.is_empty()).then(|| format!("**Best order of bites**, by medians over domains: {}.", told.join("; ")))
 }
 
 fn best_order(findings: &[OrderFinding], spacing: &str) -> Option<String> {
@@ -219,8 +220,8 @@ fn best_order(findings: &[OrderFinding], spacing: &str) -> Option<String> {
         .fold(f64::INFINITY, f64::min);
     let cost = |finding: &OrderFinding| number(finding.seconds_per_triangle.map(|seconds| seconds / fastest));
     Some(format!(
-        "With `{spacing}`: `{}` has the largest mean smallest angle ({}, at {} times the time of the fastest order), \
-         `{}` the largest smallest angle ({}, at {} times); medians over domains",
+        "with `{spacing}` `{}` has the largest mean smallest angle ({}, at {} times the time of the fastest order), `{}` \
+         the largest smallest angle ({}, at {} times)",
         mean.order,
         degrees(mean.mean_deg),
         cost(mean),
@@ -276,11 +277,12 @@ pub(super) fn orders(rows: &[Row]) -> String {
 pub(super) fn time_finding(rows: &[Row]) -> Option<String> {
     let slopes = slopes(rows);
     let whole = slopes.first()?;
+    let growth = whole.slope?;
     let triangulation = slopes.iter().find(|step| step.name.contains("triangulation"));
     let beside = triangulation.map(|step| format!(", that of the triangulation within it {}", number(step.slope)));
     Some(format!(
         "**Time** grows with triangles to the power {}{}; from {} to {} triangles, {} µs per triangle in the median.",
-        number(whole.slope),
+        number(growth),
         beside.unwrap_or_default(),
         number(whole.triangles.0),
         number(whole.triangles.1),
@@ -307,7 +309,7 @@ pub(super) fn time(rows: &[Row]) -> String {
         ]
     });
     format!(
-        "{} cells run alone, each time the median of its repeats; the range of the repeats is {} of their median in the \
+        "Cells run alone and repeated: {}. Each time is the median of its repeats, whose range is {} of it in the \
          median cell. Slopes are least-squares lines through the logarithms.\n\n",
         timed.len(),
         number(median(spreads.collect()))

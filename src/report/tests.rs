@@ -172,7 +172,13 @@ fn in_earnest(domain: &str) -> Row {
         budget: Budget::default(),
     };
     let run = measure::run(&prepared, &*mesher, &request).unwrap();
-    row.report = Some(measure::judge(&prepared, &row.cell, entry, &run, &Provenance::default()));
+    row.report = Some(measure::judge(
+        &prepared,
+        &row.cell,
+        entry,
+        &run,
+        &Provenance::default(),
+    ));
     row.outcome = Outcome::Measured;
     row
 }
