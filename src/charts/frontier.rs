@@ -40,10 +40,15 @@ impl Figure for SizeForAngle<'_> {
         let place = |pair: &Pair| (pair.smallest_angle_deg, pair.size_ratio_lfs);
         let best = frontier(self.pairs);
         panel.dashes(&best.iter().map(place).collect::<Vec<_>>(), GREY, FINE as u32)?;
-        for pair in self.pairs {
+        // The best last: pairs may coincide, where the limited spacing is the same.
+        let others = self.pairs.iter().filter(|pair| !best.contains(pair));
+        for (pair, is_best) in others
+            .map(|pair| (pair, false))
+            .chain(best.iter().map(|pair| (pair, true)))
+        {
             let index = c_bs.iter().position(|c_b| *c_b == pair.c_b).unwrap_or(0);
             let marker = c_b_marker(index, c_bs.len());
-            panel.marker(place(pair), if best.contains(pair) { marker } else { marker.hollow() })?;
+            panel.marker(place(pair), if is_best { marker } else { marker.hollow() })?;
         }
         let mut taken: Vec<(i32, i32)> = Vec::new();
         for pair in &best {

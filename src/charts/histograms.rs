@@ -90,24 +90,31 @@ struct Multiples {
     series: Vec<String>,
 }
 
-/// Most panels side by side.
-const COLUMNS: usize = 4;
+impl Multiples {
+    /// Panels side by side.
+    fn columns(&self) -> usize {
+        self.panels.len().clamp(1, 4)
+    }
+}
 
 impl Figure for Multiples {
     fn size(&self) -> (u32, u32) {
-        (1200, 40 + 350 * self.panels.len().div_ceil(COLUMNS).max(1) as u32)
+        (
+            1200,
+            40 + 350 * self.panels.len().div_ceil(self.columns()).max(1) as u32,
+        )
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
         let (plots, key) = area.split_vertically((self.size().1 as i32 - 40) * FINE);
-        let count = self.panels.len();
+        let (count, columns) = (self.panels.len(), self.columns());
         let all = self.panels.iter().flat_map(|(_, shares)| shares.iter().flatten());
         let top = all.copied().fold(1.0, f64::max) * 1.05;
-        let areas = plots.split_evenly((count.div_ceil(COLUMNS).max(1), COLUMNS));
+        let areas = plots.split_evenly((count.div_ceil(columns).max(1), columns));
         for (index, ((title, lines), area)) in self.panels.iter().zip(&areas).enumerate() {
-            let is_last = index + COLUMNS >= count;
+            let is_last = index + columns >= count;
             let x = Axis::linear(if is_last { "smallest angle (degrees)" } else { "" }, 0.0..60.0, 6);
-            let label = if index % COLUMNS == 0 {
+            let label = if index % columns == 0 {
                 "triangles (% a degree)"
             } else {
                 ""
