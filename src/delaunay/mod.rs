@@ -233,11 +233,21 @@ fn crossing(cdt: &Cdt, handles: &[FixedVertexHandle], points: &[DVec2], piece: &
 }
 
 /// The domain's face that each triangle lies in, spread from the pieces over all unconstrained edges.
+///
+/// One inside face, the one with most pieces, is not walked through but gets what no other face has reached: outside
+/// and holes are usually few triangles. Should another face leak into it, that one meets one of its pieces.
 fn flood(
     cdt: &Cdt,
     domain: &Domain,
     edges: &[(Piece, FixedDirectedEdgeHandle)],
 ) -> Result<Vec<u32>, TriangulationError> {
+    let sides = || {
+        edges.iter().flat_map(|(piece, edge)| {
+            let segment = &domain.segments()[piece.segment as usize];
+            [(*edge, segment.left as u32), (edge.rev(), segment.right as u32)]
+        })
+    };
+    let rest = face_with_most_pieces(domain, sides().map(|(_, label)| label));
     let mut flood = Flood {
         cdt,
         faces: domain.faces(),
@@ -245,10 +255,8 @@ fn flood(
         stack: Vec::new(),
     };
     flood.labels[cdt.outer_face().fix().index()] = 0;
-    for (piece, edge) in edges {
-        let segment = &domain.segments()[piece.segment as usize];
-        flood.reach(*edge, segment.left as u32)?;
-        flood.reach(edge.rev(), segment.right as u32)?;
+    for (edge, label) in sides().filter(|(_, label)| *label != rest) {
+        flood.reach(edge, label)?;
     }
     for edge in cdt.convex_hull().filter(|edge| !edge.is_constraint_edge()) {
         flood.reach(edge.fix().rev(), 0)?;
@@ -263,7 +271,25 @@ fn flood(
             flood.reach(edge.fix().rev(), label)?;
         }
     }
+    for (edge, label) in sides().filter(|(_, label)| *label == rest) {
+        flood.reach(edge, label)?;
+    }
+    for label in flood.labels.iter_mut().filter(|label| **label == UNKNOWN) {
+        *label = rest;
+    }
     Ok(flood.labels)
+}
+
+/// The inside face that most sides of pieces look at; 0, which is outside, where there is none.
+fn face_with_most_pieces(domain: &Domain, labels: impl Iterator<Item = u32>) -> u32 {
+    let mut counts = vec![0usize; domain.faces().len()];
+    for label in labels {
+        counts[label as usize] += 1;
+    }
+    let inside = (0u32..)
+        .zip(counts)
+        .filter(|(label, _)| domain.faces()[*label as usize].inside);
+    inside.max_by_key(|(_, count)| *count).map_or(0, |(label, _)| label)
 }
 
 /// The state of [`flood`].
