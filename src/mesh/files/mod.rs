@@ -19,7 +19,7 @@ mod svg;
 mod triangle;
 mod vtu;
 
-use crate::files::write_whole;
+use crate::files::write_together;
 use crate::mesh::Mesh;
 use std::path::{Path, PathBuf};
 
@@ -121,8 +121,9 @@ fn format_of(path: &Path, allowed: impl Fn(Format) -> bool) -> Result<Format, Me
 pub fn write(mesh: &Mesh, path: &Path) -> Result<(), MeshFileError> {
     let text = match format_of(path, |_| true)? {
         Format::Triangle => {
-            put(&path.with_extension("node"), &triangle::node_text(mesh))?;
-            return put(&path.with_extension("ele"), &triangle::ele_text(mesh));
+            let (node, ele) = (path.with_extension("node"), path.with_extension("ele"));
+            let (node_text, ele_text) = (triangle::node_text(mesh), triangle::ele_text(mesh));
+            return put(&[(&node, node_text.as_bytes()), (&ele, ele_text.as_bytes())]);
         }
         Format::Vtu => vtu::text(mesh),
         Format::Gmsh => gmsh::text(mesh),
@@ -130,7 +131,7 @@ pub fn write(mesh: &Mesh, path: &Path) -> Result<(), MeshFileError> {
         Format::Svg => svg::text(mesh),
         Format::Json => json::text(mesh),
     };
-    put(path, &text)
+    put(&[(path, text.as_bytes())])
 }
 
 /// Reads a mesh from a file of any origin. Triangles keep their orientation; vertices no triangle uses are kept.
@@ -155,8 +156,8 @@ pub fn read(path: &Path) -> Result<Mesh, MeshFileError> {
     }
 }
 
-fn put(path: &Path, text: &str) -> Result<(), MeshFileError> {
-    write_whole(path, text.as_bytes()).map_err(|source| MeshFileError::Io {
+fn put(files: &[(&Path, &[u8])]) -> Result<(), MeshFileError> {
+    write_together(files).map_err(|(path, source)| MeshFileError::Io {
         path: path.to_path_buf(),
         source,
     })

@@ -206,3 +206,30 @@ fn gmsh_2_is_understood() {
     let mesh = gmsh::parse(text).unwrap();
     assert_eq!((mesh.triangles, mesh.regions), (vec![[0, 1, 2]], vec![0.5]));
 }
+
+proptest::proptest! {
+    /// Words of the formats in any order, with numbers that are too large, negative or none.
+    #[test]
+    fn no_text_makes_the_readers_panic(
+        words in proptest::collection::vec(
+            proptest::sample::select(vec![
+                "0", "1", "2", "3", "-1", "5", "1e400", "99999999999999999999", "-9223372036854775808", "4294967295", ".5",
+                "v", "f", "1/2", "#", "\n", "é", "4.1", "2.2", "8", "$MeshFormat", "$EndMeshFormat", "$Nodes", "$EndNodes",
+                "$Elements", "$EndElements", "$Entities", "<Points>", "<Cells>", "<DataArray Name=\"types\">", "</",
+                "<DataArray Name=\"connectivity\" format='ascii'>", "<DataArray Name=\"offsets\">", "<DataArray", ">", "\"",
+                "{\"points\":[", "]", "}",
+            ]),
+            0..80,
+        ),
+    ) {
+        let text = words.join(" ");
+        let formatted = format!("$MeshFormat 4.1 0 8 $EndMeshFormat {text}");
+        let node = triangle::parse_node(&text);
+        let mut mesh = node.map_or_else(|_| Mesh::default(), |(mesh, _)| mesh);
+        let _ = triangle::parse_ele(&text, &mut mesh, 1);
+        for parse in [vtu::parse, gmsh::parse, obj::parse, json::parse] {
+            let _ = parse(&text);
+            let _ = parse(&formatted);
+        }
+    }
+}
