@@ -1,7 +1,8 @@
 //! Runs the cells of a plan and appends a row for each.
 //!
-//! Cells that are only counted and measured run side by side, as far as their memory fits; timed cells run alone
-//! afterwards, their repeats interleaved so that a noisy minute does not fall on one of them.
+//! Timed cells run alone, before the memory of others is in their way, their repeats interleaved so that a noisy minute
+//! does not fall on one of them. Then cells that are only counted and measured run side by side, as far as their memory
+//! fits.
 
 use super::gate::Gate;
 use super::journal::{Journal, JournalError, Line};
@@ -107,8 +108,8 @@ impl Sweep<'_> {
     pub fn run(&self, tasks: &[Task], journal: &mut Journal) -> Result<(), JournalError> {
         let (timed, untimed): (Vec<&Task>, Vec<&Task>) =
             tasks.iter().partition(|task| self.cells[task.cell].cell.timed);
-        self.run_side_by_side(&untimed, journal)?;
-        self.run_alone(&timed, journal)
+        self.run_alone(&timed, journal)?;
+        self.run_side_by_side(&untimed, journal)
     }
 
     fn run_side_by_side(&self, tasks: &[&Task], journal: &mut Journal) -> Result<(), JournalError> {
@@ -364,7 +365,6 @@ fn take_median(report: &mut Report, run: Run, samples: &[f64]) {
         report.seconds.steps = run.seconds.steps;
     }
     report.seconds.total = median;
-    report.peak_rss_bytes = report.peak_rss_bytes.max(run.peak_rss_bytes);
 }
 
 /// A panic in one cell is that cell's failure, and no reason to lose the others.
