@@ -35,9 +35,6 @@ pub struct Arguments {
     part: Option<Part>,
     #[command(flatten)]
     place: Place,
-    /// Run only the small part of the experiment that its `quick` tables name, into a folder of its own
-    #[arg(long)]
-    quick: bool,
     /// Start anew; rows that are there are kept under another name
     #[arg(long)]
     fresh: bool,
@@ -70,12 +67,16 @@ struct Place {
     /// Where the folders of results stand
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     results: PathBuf,
+    /// Only the small part of the experiment that its `quick` tables name, in a folder of its own
+    #[arg(long)]
+    quick: bool,
 }
 
 impl Place {
     fn plan(&self) -> Result<Plan, Failure> {
         let default = || Path::new(EXPERIMENTS).join("sweep.toml");
-        Plan::read(&self.experiment.clone().unwrap_or_else(default)).map_err(Failure::input)
+        let plan = Plan::read(&self.experiment.clone().unwrap_or_else(default)).map_err(Failure::input)?;
+        Ok(if self.quick { plan.into_quick() } else { plan })
     }
 }
 
@@ -84,7 +85,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return merge(&place.plan()?, &place.results);
     }
     let plan = arguments.place.plan()?;
-    let plan = if arguments.quick { plan.into_quick() } else { plan };
     let cells = plan.cells().map_err(Failure::input)?;
     for planned in &cells {
         runner::mesher(&planned.cell)

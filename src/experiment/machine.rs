@@ -17,12 +17,17 @@ pub fn provenance() -> Provenance {
         cpu: cpu(),
         cores: std::thread::available_parallelism().map_or(1, usize::from),
         os: os(),
-        date: rfc3339(
-            SystemTime::now()
-                .duration_since(UNIX_EPOCH)
-                .map_or(0, |since| since.as_secs()),
-        ),
+        date: now(),
     }
+}
+
+/// The time, RFC 3339, UTC.
+pub fn now() -> String {
+    rfc3339(
+        SystemTime::now()
+            .duration_since(UNIX_EPOCH)
+            .map_or(0, |since| since.as_secs()),
+    )
 }
 
 /// Whether two rows were made on machines that look alike, so that their times may stand in one table.

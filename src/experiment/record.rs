@@ -33,7 +33,7 @@ pub struct Provenance {
     pub cores: usize,
     /// Operating system.
     pub os: String,
-    /// Start of the run, RFC 3339, UTC.
+    /// When the row was made, RFC 3339, UTC.
     pub date: String,
 }
 

@@ -38,7 +38,7 @@ pub struct Sweep<'a> {
     pub cells: &'a [PlannedCell],
     /// Domains and spacings.
     pub store: &'a Store,
-    /// Written into every row.
+    /// Written into every row, with the time of that row.
     pub provenance: &'a Provenance,
     /// How many cells run side by side.
     pub threads: usize,
@@ -208,7 +208,11 @@ impl Sweep<'_> {
         }
         let attempt = guarded(|| {
             let (entry, run) = self.mesh(planned, prepared, limit)?;
-            let report = measure::judge(prepared, &planned.cell, entry, &run, self.provenance);
+            let provenance = Provenance {
+                date: machine::now(),
+                ..self.provenance.clone()
+            };
+            let report = measure::judge(prepared, &planned.cell, entry, &run, &provenance);
             Ok((report, run.seconds.total))
         });
         match attempt {
