@@ -320,7 +320,7 @@ fn overlap(a: &Rect, b: &Rect) -> bool {
 }
 
 /// Whether a closed segment and a closed box meet: neither the axes nor the segment's normal separate them.
-fn meets_box([a, b]: [DVec2; 2], bounds: &Rect) -> bool {
+pub(crate) fn meets_box([a, b]: [DVec2; 2], bounds: &Rect) -> bool {
     if !overlap(
         &Rect {
             min: a.min(b),

@@ -48,3 +48,6 @@ pub const RIGHT_ANGLE_DEG: f64 = 1e-6;
 /// Domain: step of the grid on which `--repair` places crossings, relative to the larger side of the PSLG: a hundredth of
 /// a millimetre on forty kilometres. Coarse enough that ends meant to touch do not leave slivers of a few ulp.
 pub const REPAIR_GRID: f64 = 1.0 / (1u64 << 32) as f64;
+/// Gradient limiting: a lower bound of f is taken this share of the largest coordinate lower. Distances and their
+/// differences are computed to a few ulp of the coordinates.
+pub const LOWER_BOUND: f64 = 16.0 * f64::EPSILON;

@@ -13,44 +13,10 @@
 //! Distances are Euclidean: two arms close in the plane and far along the domain see each other (the paper's footnote
 //! names the geodesic variant).
 
-use super::shortlist::{Contest, Shortlists};
+use super::features::{Feature, Features};
+use super::shortlist::Shortlists;
 use super::{Spacing, SpacingError};
 use crate::geometry::{DVec2, Rect};
-
-/// Distances kept on the stack; longer lists occur only while the lists are built, and at vertices of huge degree.
-const BUFFER: usize = 64;
-
-/// A vertex (both ends the same) or a segment.
-#[derive(Clone, Copy, Debug)]
-struct Feature {
-    from: DVec2,
-    along: DVec2,
-    /// 1 / |along|², 0 for a vertex.
-    inverse: f64,
-    ends: [u32; 2],
-}
-
-impl Feature {
-    #[inline]
-    fn distance_squared(&self, x: DVec2) -> f64 {
-        let offset = x - self.from;
-        let share = (offset.dot(self.along) * self.inverse).clamp(0.0, 1.0);
-        (offset - share * self.along).length_squared()
-    }
-
-    #[inline]
-    fn has_end(&self, vertex: u32) -> bool {
-        self.ends[0] == vertex || self.ends[1] == vertex
-    }
-
-    #[inline]
-    fn is_incident(&self, other: &Self) -> bool {
-        self.has_end(other.ends[0]) || self.has_end(other.ends[1])
-    }
-}
-
-#[derive(Clone, Debug)]
-struct Features(Vec<Feature>);
 
 /// lfs of a planar straight-line graph.
 #[derive(Clone, Debug)]
@@ -66,22 +32,14 @@ impl Lfs {
     /// # Errors
     /// [`SpacingError::NoFeatures`] where no two features are apart, [`SpacingError::NotPositive`] where two coincide.
     pub fn new(vertices: &[DVec2], segments: &[[usize; 2]]) -> Result<Self, SpacingError> {
-        let points = vertices.iter().zip(0..).map(|(&from, index)| Feature {
-            from,
-            along: DVec2::ZERO,
-            inverse: 0.0,
-            ends: [index, index],
-        });
-        let edges = segments.iter().map(|&[a, b]| {
-            let along = vertices[b] - vertices[a];
-            Feature {
-                from: vertices[a],
-                along,
-                inverse: along.length_squared().recip(),
-                ends: [a as u32, b as u32],
-            }
-        });
-        let features = Features(points.chain(edges).collect());
+        let points = vertices
+            .iter()
+            .zip(0..)
+            .map(|(&at, index)| Feature::new([at, at], [index, index]));
+        let edges = segments
+            .iter()
+            .map(|&[a, b]| Feature::new([vertices[a], vertices[b]], [a as u32, b as u32]));
+        let features = Features::new(points.chain(edges).collect());
         let bounds = Rect::around(vertices.iter().copied());
         if vertices.len() < 2 {
             return Err(SpacingError::NoFeatures);
@@ -133,87 +91,13 @@ impl Lfs {
     }
 }
 
-impl Contest for Features {
-    fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    fn value(&self, list: &[u32], x: DVec2) -> f64 {
-        let mut short = [0.0; BUFFER];
-        let mut long = Vec::new();
-        let distances = if list.len() <= BUFFER {
-            &mut short[..list.len()]
-        } else {
-            long.resize(list.len(), 0.0);
-            &mut long[..]
-        };
-        let mut nearest = (f64::INFINITY, 0);
-        for (distance, &item) in distances.iter_mut().zip(list) {
-            *distance = self.0[item as usize].distance_squared(x);
-            if *distance < nearest.0 {
-                nearest = (*distance, item);
-            }
-        }
-        let first = &self.0[nearest.1 as usize];
-        let apart = distances
-            .iter()
-            .zip(list)
-            .filter(|(_, item)| !self.0[**item as usize].is_incident(first));
-        let stop = apart.map(|(&distance, _)| distance).fold(f64::INFINITY, f64::min);
-        self.between_the_ends(first, list, distances, stop).sqrt()
-    }
-
-    fn least(&self, item: u32, cell: Rect) -> f64 {
-        // The distance from the centre less the radius is a little low for flat cells, and one formula for all.
-        self.0[item as usize].distance_squared(cell.centre()).sqrt() - 0.5 * cell.diagonal()
-    }
-
-    fn slope(&self) -> f64 {
-        1.0
-    }
-
-    fn short(&self) -> usize {
-        10
-    }
-
-    fn finest(&self) -> f64 {
-        0.05
-    }
-}
-
-impl Features {
-    /// The nearest feature `first` is a segment: what hangs on one of its ends may be apart from what hangs on the
-    /// other (the two ends themselves are). Returns the squared radius that meets two such, or `stop` if that is less.
-    fn between_the_ends(&self, first: &Feature, list: &[u32], distances: &[f64], stop: f64) -> f64 {
-        let mut lowest = stop;
-        if first.ends[0] == first.ends[1] {
-            return lowest;
-        }
-        let hangs_on = |end: usize| {
-            list.iter().zip(distances).filter_map(move |(&item, &distance)| {
-                let feature = &self.0[item as usize];
-                (feature.has_end(first.ends[end]) && !feature.has_end(first.ends[1 - end]))
-                    .then_some((feature, distance))
-            })
-        };
-        for (one, near) in hangs_on(0).filter(|(_, distance)| *distance < stop) {
-            for (two, far) in hangs_on(1) {
-                if near.max(far) < lowest && !one.is_incident(two) {
-                    lowest = near.max(far);
-                }
-            }
-        }
-        lowest
-    }
-}
-
 impl Spacing for Lfs {
     fn at(&self, x: DVec2) -> f64 {
         match self.lists.at(x) {
-            Some(list) => self.features.value(list, x),
+            Some(list) => self.features.decide(list, x).0,
             None => {
                 let all: Vec<u32> = (0..self.features.len() as u32).collect();
-                self.features.value(&all, x)
+                self.features.decide(&all, x).0
             }
         }
     }

@@ -1,23 +1,31 @@
 //! Control spacing f (§2): positive, finite, α-Lipschitz.
 //!
-//! A SPEC ([`parse`]) names a spacing; [`build`] makes of it the f a mesher sees:
+//! A SPEC ([`Spec`]) names a spacing; [`build`] makes of it the f a mesher sees:
 //!
 //! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`Expression`], or the [`Min`] of several;
 //! 2. capped by lfs, which gives the gns of §2.3, unless [`Options::lfs_cap`] is off;
-//! 3. limited to the Lipschitz constant [`Options::alpha`] (§2.3).
+//! 3. limited to the Lipschitz constant [`Options::alpha`] by [`limit`] (§2.3).
+//!
+//! [`integrate`] gives ∫_Ω dA / f², which Lemma 5.10 and Theorem 5.11 measure meshes by.
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
 use std::sync::Arc;
 
 mod combine;
+mod cover;
 mod expression;
+mod features;
 mod gradient;
+mod gradient_limit;
 mod grammar;
+mod integral;
 mod interval;
 mod lfs;
+mod limited;
 mod parse;
 mod program;
+mod samples;
 mod shortlist;
 #[cfg(test)]
 mod testing;
@@ -25,8 +33,11 @@ mod uniform;
 
 pub use combine::{Min, Scaled};
 pub use expression::Expression;
+pub use gradient_limit::limit;
 pub use grammar::GrammarError;
+pub use integral::{Integral, estimate_triangles, integrate};
 pub use lfs::Lfs;
+pub use limited::Limited;
 pub use parse::{KINDS, Spec, spec_for_size};
 pub use uniform::Uniform;
 
@@ -92,6 +103,40 @@ pub enum SpacingError {
         /// Where.
         x: f64,
         /// Where.
+        y: f64,
+    },
+    /// f is so small on so long a stretch that its integral cannot be resolved.
+    #[error("spacing is too small near ({x}, {y}) to integrate 1 / f^2; choose a larger one")]
+    TooSmall {
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
+    /// The integral was not found to the tolerance.
+    #[error("the integral of 1 / f^2 has relative error {error} where {tolerance} was asked for; ask for less")]
+    NotConverged {
+        /// What was asked for.
+        tolerance: f64,
+        /// What was reached.
+        error: f64,
+    },
+    /// The domain could not be triangulated.
+    #[error(transparent)]
+    Triangulation(#[from] crate::delaunay::TriangulationError),
+    /// Gradient limiting would need too large an index.
+    #[error(
+        "limiting the spacing to Lipschitz constant {alpha} needs more than {cells} cells near ({x}, {y}); choose a larger \
+         t / c_b, a lower limit factor, or a spacing that is not so small there"
+    )]
+    TooManyCells {
+        /// The limit.
+        cells: usize,
+        /// The Lipschitz constant asked for.
+        alpha: f64,
+        /// Where cells were being split.
+        x: f64,
+        /// Where cells were being split.
         y: f64,
     },
 }
@@ -190,12 +235,7 @@ pub fn build(spec: &str, domain: &Domain, options: &Options) -> Result<Prepared,
     collect(&parsed, domain.bounds(), &mut parts)?;
     parts.extend(lfs);
     let function = Min::of(parts, domain.bounds());
-    let lipschitz = function.lipschitz();
-    let function = if options.alpha >= lipschitz {
-        function
-    } else {
-        Arc::new(Scaled::new(options.alpha / lipschitz, function))
-    };
+    let function = limit(function, domain, options.alpha, options.limit_factor)?;
     Ok(Prepared {
         spec: parsed.to_string(),
         lfs_cap: is_capped,
@@ -220,4 +260,74 @@ fn collect(spec: &Spec, bounds: Rect, parts: &mut Vec<Arc<dyn Spacing>>) -> Resu
         Spec::Min(specs) => specs.iter().try_for_each(|spec| collect(spec, bounds, parts))?,
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::testing::{gallery, points_inside};
+    use super::*;
+
+    #[test]
+    fn every_spacing_is_capped_limited_and_named() {
+        for name in ["unit-square", "comb", "interface"] {
+            let domain = gallery(name);
+            let lfs = lfs_of(&domain).unwrap();
+            for spec in [
+                "lfs",
+                "uniform:0.02",
+                "uniform:1",
+                "expr:0.05+0.5*x*x",
+                "min(uniform:0.1, expr:0.01+abs(y))",
+            ] {
+                let prepared = build(spec, &domain, &Options::new(0.25, 0.5)).unwrap();
+                assert_eq!(prepared.spec, spec);
+                assert!(prepared.lfs_cap && prepared.t_effective(0.5) <= 0.25);
+                for x in points_inside(&domain, 200) {
+                    let value = prepared.function.at(x);
+                    assert!(value > 0.0 && value <= lfs.at(x), "{name} {spec} at {x}: {value}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_cap_that_never_bites_leaves_the_function_alone() {
+        let domain = gallery("unit-square");
+        for (spec, lipschitz) in [("uniform:0.5", 0.0), ("expr:0.1+0.3*x", 0.3)] {
+            let prepared = build(spec, &domain, &Options::with_alpha(1.0)).unwrap();
+            let found = prepared.function.lipschitz();
+            assert!(lipschitz <= found && found <= 1.011 * lipschitz, "{spec}: {found}");
+        }
+    }
+
+    #[test]
+    fn the_cap_can_be_lifted() {
+        let domain = gallery("unit-square");
+        let options = Options {
+            lfs_cap: false,
+            ..Options::with_alpha(0.5)
+        };
+        let prepared = build("uniform:7", &domain, &options).unwrap();
+        assert!(!prepared.lfs_cap);
+        assert_eq!(prepared.function.at(DVec2::ZERO), 7.0);
+    }
+
+    #[test]
+    fn options_out_of_range_are_refused() {
+        let domain = gallery("unit-square");
+        for alpha in [0.0, -1.0, f64::NAN] {
+            assert!(matches!(
+                build("lfs", &domain, &Options::with_alpha(alpha)),
+                Err(SpacingError::Option { .. })
+            ));
+        }
+        let options = Options {
+            limit_factor: 1.0,
+            ..Options::with_alpha(0.5)
+        };
+        assert!(matches!(
+            build("lfs", &domain, &options),
+            Err(SpacingError::Option { .. })
+        ));
+    }
 }

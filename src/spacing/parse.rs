@@ -162,3 +162,56 @@ impl Reader<'_> {
         Err(self.error(to, "`)` expected to end `min(`"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_reads_back_as_it_is_written() {
+        for (text, canonical) in [
+            ("lfs", "lfs"),
+            (" uniform: 0.10 ", "uniform:0.1"),
+            ("expr: 0.1+min(x, y) ", "expr:0.1+min(x, y)"),
+            ("min( lfs,uniform:2)", "min(lfs, uniform:2)"),
+            (
+                "min(lfs, expr:min(x,y), min(lfs,uniform:1))",
+                "min(lfs, expr:min(x,y), min(lfs, uniform:1))",
+            ),
+        ] {
+            let spec = Spec::parse(text).unwrap();
+            assert_eq!(spec.to_string(), canonical);
+            assert_eq!(Spec::parse(canonical).unwrap(), spec);
+        }
+    }
+
+    #[test]
+    fn errors_say_the_column_or_the_kinds() {
+        let error = |text: &str| Spec::parse(text).unwrap_err().to_string();
+        assert_eq!(
+            error("uniform:-1"),
+            "spacing `uniform:-1`, column 9: a positive number expected after `uniform:`"
+        );
+        assert_eq!(
+            error("min(lfs, expr:x+*y)"),
+            "spacing `min(lfs, expr:x+*y)`, column 17: a number, x, y or a function expected, found `*`"
+        );
+        assert_eq!(
+            error("hessian:x^2"),
+            "spacing `hessian:x^2` is unknown; there are lfs, uniform:H, expr:EXPRESSION, min(A, B)"
+        );
+        assert!(error("min(lfs, lfs").ends_with("column 13: `)` expected to end `min(`"));
+        assert!(error("min(lfs)").ends_with("column 8: `min` takes two or more"));
+        assert!(error("min(lfs, lfs) + 1").ends_with("column 14: nothing expected after `min(…)`"));
+    }
+
+    #[test]
+    fn a_size_is_divided_by_c_b() {
+        assert_eq!(spec_for_size(" 0.1+x ", 0.5).unwrap(), "expr:(0.1+x)/0.5");
+        let error = spec_for_size("0.1+", 0.5).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "spacing `0.1+`, column 5: a number, x, y or a function expected, found the end"
+        );
+    }
+}

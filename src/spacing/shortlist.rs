@@ -1,35 +1,34 @@
-//! Short lists: a quadtree whose leaves name the few items that decide a function there.
+//! Short lists: a quadtree whose leaves name the few features that decide lfs there.
 //!
 //! # Idea
-//! Some functions are decided at x by the items nearest to x: lfs by features, a limited spacing by cells. If the
-//! function is at most u on a cell, only items that can contribute u or less somewhere in the cell matter there. Since
-//! the function is L-Lipschitz, u = value(centre) + L · radius will do, and a child's list is a part of its parent's. A
-//! query walks down to its leaf and looks at a dozen items, exactly as if it had looked at all.
+//! lfs(x) is decided by two of the features nearest to x. If the two that decide at the centre of a small disc are nearer
+//! than feature K all over the disc, K cannot decide anywhere in it. So a child's list is a part of its parent's, and a
+//! query walks down to its leaf and looks at a few features, exactly as if it had looked at all.
+//!
+//! # Guarantee
+//! Features are convex. The gradient of the distance d to a convex set is a unit vector that turns by at most r / (d − r)
+//! within r of a point at distance d > r, because the Hessian's eigenvalues lie in [0, 1 / d]. Hence, within r of c,
+//!
+//! > d_K − d_W ≥ d_K(c) − d_W(c) − min(2 r, r ‖∇d_K − ∇d_W‖ + ½ r² / (d_K − r) + ½ r² / (d_W − r)),
+//!
+//! and K is left out where that is positive for both deciding features W.
 //!
 //! # Cost
-//! About (items) × (depth) × (overlap) to build; a query is a walk of `depth` steps and one short list.
+//! About (features) × (depth) × (overlap) to build; a query is a walk of `depth` steps and one short list.
 
+use super::features::{Features, View};
 use crate::geometry::tolerance::SHORTLIST;
 use crate::geometry::{DVec2, Rect};
 
 /// Deepest tree: cells 2⁻⁴⁰ of the root, finer than coordinates can tell apart in practice.
 const DEPTH: usize = 40;
 
-/// What the items are and how they decide the function.
-pub trait Contest: Sync {
-    /// How many items there are.
-    fn len(&self) -> usize;
-    /// The function at `x`, if the items in `list` are all that matter there.
-    fn value(&self, list: &[u32], x: DVec2) -> f64;
-    /// A lower bound of what the item can contribute anywhere in `cell`.
-    fn least(&self, item: u32, cell: Rect) -> f64;
-    /// Lipschitz constant of the function.
-    fn slope(&self) -> f64;
-    /// A list this short is not worth splitting.
-    fn short(&self) -> usize;
-    /// A cell is not split once radius · slope is below this share of the function at its centre.
-    fn finest(&self) -> f64;
-}
+/// A cell is not split once radius · slope is below this share of the function at its centre: where lists stay long
+/// there, many features tie, and smaller cells would not help.
+const FINEST: f64 = 1e-3;
+
+/// A list this short is not worth splitting.
+const SHORT: usize = 16;
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -77,25 +76,46 @@ struct Pending {
     cell: Rect,
     depth: usize,
     list: Vec<u32>,
+    is_leaf: bool,
+}
+
+impl Pending {
+    /// `parent` lists all items that matter in a cell around this one.
+    fn new(features: &Features, node: u32, cell: Rect, depth: usize, parent: &[u32]) -> Self {
+        let (centre, radius) = (cell.centre(), 0.5 * cell.diagonal());
+        let (value, deciding) = features.decide(parent, centre);
+        let deciding = deciding.map(|item| features.view(item, centre));
+        let matters = |item: &u32| {
+            let view = features.view(*item, centre);
+            let may_win =
+                |over: &View| view.distance - over.distance <= view.margin(over, radius) + SHORTLIST * view.distance;
+            deciding.iter().any(may_win)
+        };
+        let list: Vec<u32> = parent.iter().copied().filter(matters).collect();
+        let is_fine = radius <= FINEST * value;
+        let is_leaf = list.len() <= SHORT || depth >= DEPTH || is_fine;
+        Self {
+            node,
+            cell,
+            depth,
+            list,
+            is_leaf,
+        }
+    }
 }
 
 impl Shortlists {
     /// Builds the lists over `root`.
-    pub fn new(contest: &impl Contest, root: Rect) -> Self {
+    pub fn new(features: &Features, root: Rect) -> Self {
         let mut tree = Self {
             root,
             nodes: vec![Node { first: 0, count: 0 }],
             lists: Vec::new(),
         };
-        let all: Vec<u32> = (0..contest.len() as u32).collect();
-        let mut pending = vec![Pending {
-            node: 0,
-            cell: root,
-            depth: 0,
-            list: tree.shorten(contest, &all, root).1,
-        }];
+        let all: Vec<u32> = (0..features.len() as u32).collect();
+        let mut pending = vec![Pending::new(features, 0, root, 0, &all)];
         while let Some(next) = pending.pop() {
-            if tree.is_leaf(contest, &next) {
+            if next.is_leaf {
                 tree.nodes[next.node as usize] = Node {
                     first: tree.lists.len() as u32,
                     count: next.list.len() as u32,
@@ -107,38 +127,12 @@ impl Shortlists {
             tree.nodes[next.node as usize] = Node { first, count: INNER };
             tree.nodes.extend([Node { first: 0, count: 0 }; 4]);
             for (cell, node) in quarters(next.cell).into_iter().zip(first..) {
-                let (_, list) = tree.shorten(contest, &next.list, cell);
-                pending.push(Pending {
-                    node,
-                    cell,
-                    depth: next.depth + 1,
-                    list,
-                });
+                pending.push(Pending::new(features, node, cell, next.depth + 1, &next.list));
             }
         }
         tree.nodes.shrink_to_fit();
         tree.lists.shrink_to_fit();
         tree
-    }
-
-    /// The value at the centre, and the items of `list` that matter in `cell`.
-    fn shorten(&self, contest: &impl Contest, list: &[u32], cell: Rect) -> (f64, Vec<u32>) {
-        let value = contest.value(list, cell.centre());
-        let highest = (value + contest.slope() * 0.5 * cell.diagonal()) * (1.0 + SHORTLIST);
-        (
-            value,
-            list.iter()
-                .copied()
-                .filter(|&item| contest.least(item, cell) <= highest)
-                .collect(),
-        )
-    }
-
-    fn is_leaf(&self, contest: &impl Contest, pending: &Pending) -> bool {
-        pending.list.len() <= contest.short()
-            || pending.depth >= DEPTH
-            || contest.slope() * 0.5 * pending.cell.diagonal()
-                <= contest.finest() * contest.value(&pending.list, pending.cell.centre())
     }
 
     /// The items that decide the function at `x`; none outside the root.

@@ -1,5 +1,6 @@
 //! Oracles and inputs for the tests of this folder.
 
+use crate::domain::Domain;
 use crate::geometry::DVec2;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -49,4 +50,17 @@ pub fn gear(teeth: usize) -> (Vec<DVec2>, Vec<[usize; 2]>) {
         (0..count).map(corner).collect(),
         (0..count).map(|index| [index, (index + 1) % count]).collect(),
     )
+}
+
+/// A gallery domain.
+pub fn gallery(name: &str) -> Domain {
+    crate::domain::gallery::domain(name).unwrap().unwrap()
+}
+
+/// Points of the domain, the same every time.
+pub fn points_inside(domain: &Domain, count: usize) -> Vec<DVec2> {
+    let bounds = domain.bounds();
+    let mut random = Pcg64::seed_from_u64(11);
+    let anywhere = std::iter::repeat_with(|| bounds.min + random_point(&mut random) * bounds.size());
+    anywhere.filter(|&x| domain.contains(x)).take(count).collect()
 }

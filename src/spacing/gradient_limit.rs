@@ -1,0 +1,464 @@
+//! Gradient limiting (§2.3): the nearly largest α-Lipschitz function below a given one.
+//!
+//! # Idea
+//! The largest α-Lipschitz function below f on Ω is f_α(x) = min over y ∈ Ω of f(y) + α‖x − y‖ (Miller, Talmor, Teng).
+//! A minimum over finitely many samples y exceeds f between the samples; here it is a minimum over cells,
+//!
+//! > F(x) = min over cells C of v_C + α · dist(x, C), where v_C ≤ f on C ∩ Ω is proved.
+//!
+//! # Guarantee
+//! * F is α-Lipschitz everywhere: each term is, and a minimum keeps that (Lemma 2.3).
+//! * F ≤ f on Ω. In a kept cell C, F ≤ v_C ≤ f. A cell D is dropped only when some sample y ∈ Ω outside it has
+//!   f(y) + α max over x ∈ D of ‖x − y‖ ≤ v_D, so f(x) ≥ f(y) + α‖x − y‖ on D ∩ Ω: it is enough that F(y) ≤ f(y).
+//!   Now y may itself lie in a dropped cell, but f(y) < f(x), and there are finitely many samples: following them ends
+//!   in a kept cell.
+//! * F ≥ k f_α on Ω with k = [`super::Options::limit_factor`]. A cell is kept only when v_C ≥ k (U + α r), where r is
+//!   its radius and U = min over samples y of f(y) + α‖c − y‖ is at least f_α at its centre c. Then at distance d from C
+//!   v_C + α d ≥ k (U + α r + α d) ≥ k f_α.
+//!
+//! # Steps
+//! [`envelope`] refines the cells that meet Ω level by level. A cell is dropped, kept, or split into four, by the
+//! samples of all levels so far ([`Samples`]); then cells are joined again from below where the joined cell may be kept.
+//!
+//! # Cost
+//! Only cells near valleys and local minima of f survive, where f rises more slowly than α: about (their length) /
+//! ((1 − k) f) along them. Evaluation is branch
+//! and bound in their quadtree ([`Limited`]).
+
+use super::cover::{Cell, DEPTH};
+use super::limited::{Branch, Limited};
+use super::samples::Samples;
+use super::{Scaled, Spacing, SpacingError};
+use crate::domain::Domain;
+use crate::geometry::DVec2;
+use crate::geometry::tolerance::LOWER_BOUND;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Most cells that may be looked at: about 400 MB.
+const MAX_CELLS: usize = 4_000_000;
+
+/// A function at most `function` on Ω, at least `factor` of the largest α-Lipschitz one below it, and α-Lipschitz.
+///
+/// Where α ≥ λ, the constant of `function` itself, that is `function`; where α ≥ factor · λ it is (α / λ) · `function`;
+/// otherwise it is a [`Limited`].
+///
+/// # Errors
+/// [`SpacingError::NotPositive`] where `function` is not positive on Ω, [`SpacingError::TooManyCells`] where the
+/// envelope needs too many.
+pub fn limit(
+    function: Arc<dyn Spacing>,
+    domain: &Domain,
+    alpha: f64,
+    factor: f64,
+) -> Result<Arc<dyn Spacing>, SpacingError> {
+    let own = function.lipschitz();
+    if alpha >= factor * own {
+        super::cover::check_positive(function.as_ref(), domain)?;
+        return Ok(if alpha >= own {
+            function
+        } else {
+            Arc::new(Scaled::new(alpha / own, function))
+        });
+    }
+    Ok(Arc::new(envelope(function.as_ref(), domain, alpha, factor)?))
+}
+
+/// What became of a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fate {
+    /// Dominated, or outside Ω.
+    Dropped,
+    /// A term of F.
+    Kept,
+    /// Its four quarters say it better.
+    Split,
+}
+
+/// The cells of the envelope as they are refined, level by level; indices are those of [`Samples`].
+struct Refinement<'a> {
+    function: &'a dyn Spacing,
+    domain: &'a Domain,
+    alpha: f64,
+    factor: f64,
+    /// Room for rounding in a lower bound, a length.
+    slack: f64,
+    samples: Samples,
+    lowest: Vec<f64>,
+    fates: Vec<Fate>,
+}
+
+fn envelope(function: &dyn Spacing, domain: &Domain, alpha: f64, factor: f64) -> Result<Limited, SpacingError> {
+    let bounds = domain.bounds();
+    let root = Cell::root(domain);
+    let mut refinement = Refinement {
+        function,
+        domain,
+        alpha,
+        factor,
+        slack: LOWER_BOUND * bounds.min.abs().max(bounds.max.abs()).max_element(),
+        samples: Samples::new(root.rect, alpha),
+        lowest: Vec::new(),
+        fates: Vec::new(),
+    };
+    let seeds = refinement.seeds();
+    let levels = refinement.refine(root, &seeds)?;
+    refinement.join(&levels);
+    Ok(Limited::new(alpha, refinement.pack()))
+}
+
+/// A point where f tends to be low, with f there.
+#[derive(Clone, Copy)]
+struct Seed {
+    at: DVec2,
+    value: f64,
+}
+
+impl Refinement<'_> {
+    /// The ends and the middle of each segment: lfs has its minima there.
+    fn seeds(&self) -> Vec<[Seed; 3]> {
+        let seed = |at: DVec2| Seed {
+            at,
+            value: self.function.at(at),
+        };
+        let of_segment = |s: usize| {
+            let [a, b] = self.domain.ends(s);
+            [seed(a), seed(0.5 * (a + b)), seed(b)]
+        };
+        (0..self.domain.segments().len())
+            .into_par_iter()
+            .map(of_segment)
+            .collect()
+    }
+
+    /// The best sample a cell offers, and the lower bound of f on it.
+    fn look(&self, cell: &Cell, seeds: &[[Seed; 3]]) -> (Seed, f64) {
+        let at = cell.point(self.domain);
+        let mut best = Seed {
+            at,
+            value: self.function.at(at),
+        };
+        for seed in cell.crossing.iter().flat_map(|&s| &seeds[s as usize]) {
+            if seed.value < best.value && cell.rect.contains(seed.at) {
+                best = *seed;
+            }
+        }
+        (best, self.function.lower_bound(cell.rect) - self.slack)
+    }
+
+    /// Drops, keeps and splits cells until none is left to split. Returns where each level starts.
+    fn refine(&mut self, root: Cell, seeds: &[[Seed; 3]]) -> Result<Vec<usize>, SpacingError> {
+        let mut level = vec![root];
+        let mut starts = Vec::new();
+        while !level.is_empty() {
+            let start = self.fates.len();
+            starts.push(start);
+            let looks: Vec<(Seed, f64)> = level.par_iter().map(|cell| self.look(cell, seeds)).collect();
+            for (index, (seed, lowest)) in looks.iter().enumerate() {
+                if !(seed.value > 0.0 && seed.value.is_finite()) || starts.len() > DEPTH {
+                    return Err(SpacingError::NotPositive {
+                        value: seed.value,
+                        x: seed.at.x,
+                        y: seed.at.y,
+                    });
+                }
+                self.samples.set(start + index, seed.at, seed.value);
+                self.lowest.push(*lowest);
+            }
+            let fates: Vec<Fate> = (start..self.lowest.len())
+                .into_par_iter()
+                .map(|node| self.fate(node))
+                .collect();
+            self.fates.extend_from_slice(&fates);
+            level = self.next_level(start, &level)?;
+        }
+        Ok(starts)
+    }
+
+    /// An upper bound of f_α on the cell of `node`: U + α r.
+    fn reach(&self, node: usize) -> f64 {
+        let cell = self.samples.cell(node);
+        self.samples.lowest_at(cell.centre(), node) + self.alpha * 0.5 * cell.diagonal()
+    }
+
+    fn fate(&self, node: usize) -> Fate {
+        let lowest = self.lowest[node];
+        let reach = self.reach(node);
+        if lowest >= reach {
+            Fate::Dropped
+        } else if lowest >= self.factor * reach {
+            Fate::Kept
+        } else {
+            Fate::Split
+        }
+    }
+
+    /// The quarters of the cells that are split, entered into the tree of samples.
+    fn next_level(&mut self, start: usize, level: &[Cell]) -> Result<Vec<Cell>, SpacingError> {
+        let split = |(index, cell): (usize, &Cell)| -> Vec<Cell> {
+            if self.fates[start + index] == Fate::Split {
+                cell.split(self.domain).collect()
+            } else {
+                Vec::new()
+            }
+        };
+        let parts: Vec<Vec<Cell>> = level.par_iter().enumerate().map(split).collect();
+        let mut next = Vec::with_capacity(parts.iter().map(Vec::len).sum());
+        for (index, part) in parts.into_iter().enumerate() {
+            if !part.is_empty() {
+                self.samples.add_children(start + index, &part);
+                next.extend(part);
+            }
+        }
+        if self.samples.len() > MAX_CELLS {
+            let worst = next[0].rect.centre();
+            return Err(SpacingError::TooManyCells {
+                cells: MAX_CELLS,
+                alpha: self.alpha,
+                x: worst.x,
+                y: worst.y,
+            });
+        }
+        Ok(next)
+    }
+
+    /// Drops kept cells that later samples dominate, and joins quarters into their cell where that may be kept.
+    fn join(&mut self, starts: &[usize]) {
+        let mut end = self.fates.len();
+        for &start in starts.iter().rev() {
+            let judged: Vec<(Fate, f64)> = (start..end).into_par_iter().map(|node| self.judge(node)).collect();
+            for (node, (fate, lowest)) in (start..end).zip(judged) {
+                if self.fates[node] == Fate::Split && fate == Fate::Kept {
+                    self.samples
+                        .children(node)
+                        .for_each(|child| self.fates[child] = Fate::Dropped);
+                }
+                self.fates[node] = fate;
+                self.lowest[node] = lowest;
+            }
+            end = start;
+        }
+    }
+
+    /// The fate of a node when those below are settled. A joined cell takes the lowest of its kept quarters: the
+    /// dropped ones are dominated whatever it says.
+    fn judge(&self, node: usize) -> (Fate, f64) {
+        let children = self.samples.children(node);
+        let kept = children.clone().filter(|&child| self.fates[child] == Fate::Kept);
+        let joined = kept.map(|child| self.lowest[child]).fold(f64::INFINITY, f64::min);
+        match self.fates[node] {
+            Fate::Dropped => (Fate::Dropped, f64::INFINITY),
+            Fate::Kept if self.lowest[node] >= self.reach(node) => (Fate::Dropped, f64::INFINITY),
+            Fate::Kept => (Fate::Kept, self.lowest[node]),
+            Fate::Split if children.clone().any(|child| self.fates[child] == Fate::Split) => (Fate::Split, 0.0),
+            Fate::Split if joined.is_infinite() => (Fate::Dropped, f64::INFINITY),
+            Fate::Split if joined >= self.factor * self.reach(node) => (Fate::Kept, joined),
+            Fate::Split => (Fate::Split, 0.0),
+        }
+    }
+    /// The kept cells with the cells above them, level by level.
+    fn pack(&self) -> Vec<Branch> {
+        let mut lowest = self.lowest.clone();
+        for node in (0..lowest.len()).rev() {
+            match self.fates[node] {
+                Fate::Kept => {}
+                Fate::Dropped => lowest[node] = f64::INFINITY,
+                Fate::Split => {
+                    lowest[node] = self
+                        .samples
+                        .children(node)
+                        .map(|c| lowest[c])
+                        .fold(f64::INFINITY, f64::min)
+                }
+            }
+        }
+        let mut queue = vec![0];
+        let mut branches = Vec::new();
+        while branches.len() < queue.len() {
+            let node = queue[branches.len()];
+            let first = queue.len();
+            if self.fates[node] == Fate::Split {
+                queue.extend(self.samples.children(node).filter(|&child| lowest[child].is_finite()));
+            }
+            branches.push(Branch::new(self.samples.cell(node), lowest[node], first..queue.len()));
+        }
+        branches
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{gallery, points_inside, pseudo_random_points};
+    use super::super::{Expression, lfs_of};
+    use super::*;
+    use proptest::prelude::*;
+
+    /// f_α from above: the minimum over many samples of Ω.
+    fn envelope_by_samples(f: &dyn Spacing, samples: &[DVec2], alpha: f64, x: DVec2) -> f64 {
+        samples
+            .iter()
+            .map(|&y| f.at(y) + alpha * x.distance(y))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// `low` names points where f(y) + α‖x − y‖ is likely to be smallest; with them the reference is at most `slack`
+    /// above f_α.
+    fn assert_promises(
+        f: &Arc<dyn Spacing>,
+        domain: &Domain,
+        alpha: f64,
+        low: impl Fn(DVec2) -> Vec<DVec2>,
+        slack: f64,
+    ) {
+        let limited = limit(f.clone(), domain, alpha, 0.9).unwrap();
+        assert!(limited.lipschitz() <= alpha);
+        let samples = points_inside(domain, 1500);
+        for &x in &samples {
+            let (value, highest) = (limited.at(x), f.at(x));
+            assert!(value <= highest, "F({x}) = {value} > f = {highest}");
+        }
+        for &x in samples.iter().take(100) {
+            let low: Vec<DVec2> = low(x).into_iter().filter(|&y| domain.contains(y)).chain([x]).collect();
+            let reference = envelope_by_samples(f.as_ref(), &samples, alpha, x);
+            let reference = reference.min(envelope_by_samples(f.as_ref(), &low, alpha, x));
+            let value = limited.at(x);
+            assert!(
+                value >= 0.9 * (reference - slack),
+                "F({x}) = {value}, f_α up to {reference}"
+            );
+        }
+        assert_is_lipschitz(limited.as_ref(), domain, alpha);
+    }
+
+    /// On random pairs near and far, along segments, and across borders of cells.
+    fn assert_is_lipschitz(f: &dyn Spacing, domain: &Domain, alpha: f64) {
+        let bounds = domain.bounds();
+        let random = pseudo_random_points(600);
+        let mut pairs: Vec<(DVec2, DVec2)> = Vec::new();
+        for pair in random.chunks_exact(2) {
+            let place = |p: DVec2| bounds.min + p * bounds.size();
+            pairs.push((place(pair[0]), place(pair[1])));
+            for shrink in [1e-2, 1e-5, 1e-8] {
+                pairs.push((
+                    place(pair[0]),
+                    place(pair[0]) + shrink * (pair[1] - DVec2::splat(0.5)) * bounds.size(),
+                ));
+            }
+            let [a, b] = domain.ends((pair[0].x * domain.segments().len() as f64) as usize);
+            pairs.push((a.lerp(b, pair[0].y), a.lerp(b, pair[1].x)));
+            // Borders of cells lie at whole multiples of powers of two from the root's corner.
+            let root = Cell::root(domain).rect;
+            let border = root.min + (64.0 * pair[0]).floor() / 64.0 * root.size();
+            pairs.push((border - DVec2::splat(1e-9), border + DVec2::splat(1e-9)));
+        }
+        for (x, y) in pairs {
+            let (change, allowed) = ((f.at(x) - f.at(y)).abs(), alpha * x.distance(y));
+            assert!(
+                change <= allowed + 1e-12 * f.at(x),
+                "{x} {y}: changes by {change}, allowed {allowed}"
+            );
+        }
+    }
+
+    #[test]
+    fn limited_lfs_keeps_its_promises() {
+        for name in ["unit-square", "l-shape", "plate-hole", "comb", "gear"] {
+            let domain = gallery(name);
+            let lfs: Arc<dyn Spacing> = Arc::new(lfs_of(&domain).unwrap());
+            for alpha in [0.05, 0.25, 0.6, 0.85, 0.95, 1.0] {
+                assert_promises(
+                    &lfs,
+                    &domain,
+                    alpha,
+                    |_| middles(&domain),
+                    0.01 * domain.bounds().diagonal(),
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn on_the_square_the_limited_lfs_is_near_its_closed_form() {
+        // lfs of the unit square is at least ½ everywhere, and ½ at the middle of each side and at the centre.
+        let domain = gallery("unit-square");
+        let lfs: Arc<dyn Spacing> = Arc::new(lfs_of(&domain).unwrap());
+        for factor in [0.8, 0.9, 0.98] {
+            let limited = limit(lfs.clone(), &domain, 0.25, factor).unwrap();
+            let corner = 0.5 + 0.25 * 0.5;
+            let found = limited.at(DVec2::ZERO);
+            assert!(
+                factor * corner <= found && found <= corner,
+                "{found}, closed form {corner}"
+            );
+        }
+    }
+
+    #[test]
+    fn steep_expressions_are_limited_even_without_a_lipschitz_constant() {
+        let domain = gallery("l-shape");
+        for alpha in [0.1, 0.5] {
+            let steep = |text: &str, low: &dyn Fn(DVec2) -> DVec2| {
+                let f: Arc<dyn Spacing> = Arc::new(Expression::new(text, domain.bounds()).unwrap());
+                assert_promises(&f, &domain, alpha, |x| vec![low(x)], 0.0);
+            };
+            steep("0.01+sqrt(abs(x-0.3))", &|x| DVec2::new(0.3, x.y));
+            steep("0.05+abs(y-0.5)*3", &|x| DVec2::new(x.x, 0.5));
+            // Where the parabola is as steep as α.
+            let ring = |x: DVec2| DVec2::ONE + 0.5 * alpha * (x - DVec2::ONE).normalize_or_zero();
+            steep("min(0.4, 0.02+hypot(x-1,y-1)^2)", &ring);
+        }
+    }
+
+    fn middles(domain: &Domain) -> Vec<DVec2> {
+        (0..domain.segments().len())
+            .map(|s| 0.5 * (domain.ends(s)[0] + domain.ends(s)[1]))
+            .collect()
+    }
+
+    #[test]
+    fn a_small_value_outside_the_domain_does_not_count() {
+        // f is tiny in the notch of the L only; there is no reason to be small inside.
+        let domain = gallery("l-shape");
+        let notch = points_outside(&domain);
+        let text = format!("max(0.001, min(0.2, 3*(hypot(x-{}, y-{})-0.1)))", notch.x, notch.y);
+        let f: Arc<dyn Spacing> = Arc::new(Expression::new(&text, domain.bounds()).unwrap());
+        let limited = limit(f.clone(), &domain, 0.01, 0.9).unwrap();
+        for x in points_inside(&domain, 200) {
+            assert_eq!(f.at(x), 0.2);
+            assert!(limited.at(x) >= 0.9 * 0.2);
+        }
+    }
+
+    fn points_outside(domain: &Domain) -> DVec2 {
+        let bounds = domain.bounds();
+        let corners =
+            [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|p| bounds.min + (0.5 * p + 0.25) * bounds.size());
+        corners.into_iter().find(|&x| !domain.contains(x)).unwrap()
+    }
+
+    #[test]
+    fn spacings_that_are_not_positive_are_refused() {
+        let domain = gallery("unit-square");
+        for text in ["x", "x-0.5", "0-1", "ln(x)", "sqrt(x-0.5)"] {
+            let f: Arc<dyn Spacing> = Arc::new(Expression::new(text, domain.bounds()).unwrap());
+            for alpha in [0.1, f64::INFINITY] {
+                let error = limit(f.clone(), &domain, alpha, 0.9).err();
+                assert!(
+                    matches!(error, Some(SpacingError::NotPositive { .. })),
+                    "{text}: {error:?}"
+                );
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(6))]
+
+        #[test]
+        fn limited_lfs_of_random_polygons_keeps_its_promises(seed in 0u64..1000, alpha in 0.05f64..0.95) {
+            let domain = gallery(&format!("random-simple:n=12,seed={seed}"));
+            let lfs: Arc<dyn Spacing> = Arc::new(lfs_of(&domain).unwrap());
+            assert_promises(&lfs, &domain, alpha, |_| middles(&domain), 0.01 * domain.bounds().diagonal());
+        }
+    }
+}
