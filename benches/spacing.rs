@@ -33,8 +33,9 @@ fn outline(levels: u32) -> Domain {
 /// Points of the domain row by row, every other row backwards.
 fn walk(domain: &Domain, side: usize) -> Vec<DVec2> {
     let bounds = domain.bounds();
-    let place = |i: usize, j: usize| bounds.min + bounds.size() * DVec2::new(i as f64 + 0.5, j as f64 + 0.5) / side as f64;
-    let row = |j: usize| (0..side).map(move |i| if j % 2 == 0 { i } else { side - 1 - i });
+    let place =
+        |i: usize, j: usize| bounds.min + bounds.size() * DVec2::new(i as f64 + 0.5, j as f64 + 0.5) / side as f64;
+    let row = |j: usize| (0..side).map(move |i| if j.is_multiple_of(2) { i } else { side - 1 - i });
     let all = (0..side).flat_map(|j| row(j).map(move |i| place(i, j)));
     all.filter(|&x| domain.contains(x)).collect()
 }
@@ -47,12 +48,19 @@ fn evaluations(criterion: &mut Criterion) {
     let domain = outline(9);
     let points = walk(&domain, 300);
     let lfs = Arc::new(lfs_of(&domain).expect("a polygon has features"));
-    let unit = Rect { min: DVec2::ZERO, max: DVec2::ONE };
+    let unit = Rect {
+        min: DVec2::ZERO,
+        max: DVec2::ONE,
+    };
     let waves = Expression::new("0.004*(1+0.5*sin(20*x)*sin(20*y))", unit).expect("the formula is one");
     let mut group = criterion.benchmark_group("evaluate");
     group.throughput(Throughput::Elements(points.len() as u64));
     group.bench_function("nearest-segment", |b| {
-        b.iter(|| evaluate(&points, |x| domain.index().nearest(x).map_or(0.0, |(_, distance)| distance)));
+        b.iter(|| {
+            evaluate(&points, |x| {
+                domain.index().nearest(x).map_or(0.0, |(_, distance)| distance)
+            })
+        });
     });
     group.bench_function("lfs", |b| b.iter(|| evaluate(&points, |x| lfs.at(x))));
     group.bench_function("expression", |b| b.iter(|| evaluate(&points, |x| waves.at(x))));
@@ -85,8 +93,12 @@ fn integrals(criterion: &mut Criterion) {
     group.sample_size(10);
     group.bench_function("uniform", |b| b.iter(|| integrate(&Uniform(0.1), &domain, 1e-3)));
     for alpha in [0.25, 1.0] {
-        let f = build("lfs", &domain, &Options::with_alpha(alpha)).expect("lfs is positive").function;
-        group.bench_function(BenchmarkId::new("lfs", alpha), |b| b.iter(|| integrate(f.as_ref(), &domain, 1e-3)));
+        let f = build("lfs", &domain, &Options::with_alpha(alpha))
+            .expect("lfs is positive")
+            .function;
+        group.bench_function(BenchmarkId::new("lfs", alpha), |b| {
+            b.iter(|| integrate(f.as_ref(), &domain, 1e-3))
+        });
     }
     group.finish();
 }

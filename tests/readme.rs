@@ -20,10 +20,13 @@ fn commands(readme: &str) -> Vec<Vec<String>> {
 
 /// Splits at blanks outside double quotes.
 fn words(command: &str) -> Vec<String> {
-    let quoted = command.split('"').enumerate().flat_map(|(place, part)| match place % 2 {
-        1 => vec![part.to_owned()],
-        _ => part.split_whitespace().map(str::to_owned).collect(),
-    });
+    let quoted = command
+        .split('"')
+        .enumerate()
+        .flat_map(|(place, part)| match place % 2 {
+            1 => vec![part.to_owned()],
+            _ => part.split_whitespace().map(str::to_owned).collect(),
+        });
     quoted.collect()
 }
 
@@ -52,7 +55,10 @@ fn links_lead_somewhere() {
     for page in ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"] {
         let text = std::fs::read_to_string(root.join(page)).expect("a page");
         for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
-            assert!(link.starts_with("http") || root.join(link).exists(), "{page} links to {link}");
+            assert!(
+                link.starts_with("http") || root.join(link).exists(),
+                "{page} links to {link}"
+            );
         }
     }
 }

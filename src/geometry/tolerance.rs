@@ -25,8 +25,8 @@ pub const NO_ANGLE: f64 = 1e-12;
 /// equilateral triangles, computed to some 1e-16, are not.
 pub const ACUTE_MARGIN: f64 = 1e-9;
 
-/// Short lists of the spacing: an item is kept while it comes within this share of the value that decides. Distances
-/// are computed to a few ulp; an item more, that cannot win, costs nothing but time.
+/// Short lists of the spacing: a feature is kept while it comes within this share of what decides. Distances are
+/// computed to a few ulp; a feature more, that cannot win, costs nothing but time.
 pub const SHORTLIST: f64 = 1e-12;
 
 /// Matching a mesh to a domain: coordinates that differ by at most this many ulp of the largest coordinate are the same
@@ -48,6 +48,7 @@ pub const RIGHT_ANGLE_DEG: f64 = 1e-6;
 /// Domain: step of the grid on which `--repair` places crossings, relative to the larger side of the PSLG: a hundredth of
 /// a millimetre on forty kilometres. Coarse enough that ends meant to touch do not leave slivers of a few ulp.
 pub const REPAIR_GRID: f64 = 1.0 / (1u64 << 32) as f64;
+
 /// Gradient limiting: a lower bound of f is taken this share of the largest coordinate lower. Distances and their
 /// differences are computed to a few ulp of the coordinates.
 pub const LOWER_BOUND: f64 = 16.0 * f64::EPSILON;

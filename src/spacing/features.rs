@@ -51,6 +51,9 @@ impl Feature {
     }
 }
 
+/// A squared radius and the two features that a disk of it meets.
+type Stop = (f64, [u32; 2]);
+
 /// The features of a PSLG.
 #[derive(Clone, Debug)]
 pub struct Features(Vec<Feature>);
@@ -97,7 +100,6 @@ impl Features {
     }
 
     /// lfs at `x` if the features in `list` are all there are, and the two that stop the disk.
-
     pub fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]) {
         let mut short = [0.0; BUFFER];
         let mut long = Vec::new();
@@ -108,17 +110,17 @@ impl Features {
             &mut long[..]
         };
         let mut nearest = (f64::INFINITY, 0);
-        for (distance, &item) in distances.iter_mut().zip(list) {
-            *distance = self.0[item as usize].offset(x).length_squared();
+        for (distance, &index) in distances.iter_mut().zip(list) {
+            *distance = self.0[index as usize].offset(x).length_squared();
             if *distance < nearest.0 {
-                nearest = (*distance, item);
+                nearest = (*distance, index);
             }
         }
         let first = &self.0[nearest.1 as usize];
         let mut stop = (f64::INFINITY, [nearest.1; 2]);
-        for (&distance, &item) in distances.iter().zip(list) {
-            if distance < stop.0 && !self.0[item as usize].is_incident(first) {
-                stop = (distance, [nearest.1, item]);
+        for (&distance, &index) in distances.iter().zip(list) {
+            if distance < stop.0 && !self.0[index as usize].is_incident(first) {
+                stop = (distance, [nearest.1, index]);
             }
         }
         let (squared, deciding) = self.between_the_ends(first, list, distances, stop);
@@ -129,12 +131,7 @@ impl Features {
     pub fn view(&self, feature: u32, x: DVec2) -> View {
         View::new(self.0[feature as usize].offset(x))
     }
-}
 
-/// A squared radius and the two features that a disk of it meets.
-type Stop = (f64, [u32; 2]);
-
-impl Features {
     /// The nearest feature `first` is a segment: what hangs on one of its ends may be apart from what hangs on the
     /// other (the two ends themselves are). Returns the smallest disk that meets two such, or `stop` if that is smaller.
     fn between_the_ends(&self, first: &Feature, list: &[u32], distances: &[f64], stop: Stop) -> Stop {
@@ -143,8 +140,8 @@ impl Features {
             return lowest;
         }
         let hangs_on = |end: usize| {
-            list.iter().zip(distances).filter(move |(item, _)| {
-                let feature = &self.0[**item as usize];
+            list.iter().zip(distances).filter(move |(index, _)| {
+                let feature = &self.0[**index as usize];
                 feature.has_end(first.ends[end]) && !feature.has_end(first.ends[1 - end])
             })
         };
