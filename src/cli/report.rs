@@ -3,7 +3,7 @@
 use super::exit::{Failure, Outcome};
 use super::output::say;
 use crate::report;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -13,7 +13,14 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let page = report::write(&arguments.folder).map_err(Failure::input)?;
-    say(format_args!("wrote {}", page.display()));
+    write(&arguments.folder)
+}
+
+/// Writes charts and page of a results folder, and the findings into the README of the working folder if that asks for
+/// them.
+pub fn write(folder: &Path) -> Outcome {
+    let page = report::write(folder).map_err(Failure::input)?;
+    say(format_args!("rows, charts and page: {}", page.display()));
+    report::quote_findings(folder, Path::new("README.md")).map_err(Failure::input)?;
     Ok(())
 }

@@ -15,7 +15,6 @@ use crate::experiment::record::{self, Provenance, Row};
 use crate::experiment::runner::{self, Sweep};
 use crate::experiment::work::{self, Shard, Task};
 use crate::files::write_whole;
-use crate::report;
 use std::path::{Path, PathBuf};
 
 /// Of the memory that is free when a sweep starts, cells that run side by side use at most this share.
@@ -315,8 +314,7 @@ fn finish(plan: &Plan, folder: &Path, rows: &[Row]) -> Outcome {
             .unwrap_or("no cell was run");
         return Err(Failure::NothingMeasured(format!("nothing could be measured: {reason}")));
     }
-    let page = report::write(folder).map_err(Failure::input)?;
-    say(format_args!("rows, charts and page: {}", page.display()));
+    super::report::write(folder)?;
     let findings = findings(&plan.expect, rows);
     for finding in &findings {
         say(format_args!(

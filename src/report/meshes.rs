@@ -1,6 +1,6 @@
 //! A picture of a mesh of each domain, made again from its row.
 
-use crate::charts::{ChartError, draw_mesh};
+use crate::charts::{ChartError, draw_mesh, draw_mesh_sheet};
 use crate::experiment::measure::{fingerprint, run};
 use crate::experiment::prepare::Store;
 use crate::experiment::record::{Report, Row};
@@ -22,6 +22,8 @@ pub(super) struct Picture {
 /// What is shown: where triangles can be seen, near this t and c_b.
 const SHOWN_T: f64 = 0.25;
 const SHOWN_C_B: f64 = 0.5;
+/// The domains of the README's picture.
+const SHEET: [&str; 4] = ["plate-hole", "gear", "naca0012", "iceland"];
 /// A picture of more triangles shows colours only, and takes its time.
 const MOST_TRIANGLES: usize = 60_000;
 
@@ -30,6 +32,7 @@ const MOST_TRIANGLES: usize = 60_000;
 pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartError> {
     let store = Store::new(None, false);
     let mut pictures = Vec::new();
+    let mut sheet: Vec<(String, Mesh)> = Vec::new();
     for (row, report) in chosen(rows) {
         let Some(mesh) = made_again(&store, row).filter(|mesh| fingerprint(mesh) == report.fingerprint) else {
             continue;
@@ -46,6 +49,13 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartErr
             name,
             report: report.clone(),
         });
+        if SHEET.contains(&row.cell.domain.as_str()) {
+            sheet.push((row.cell.domain.clone(), mesh));
+        }
+    }
+    if sheet.len() == SHEET.len() {
+        let titled: Vec<_> = sheet.iter().map(|(title, mesh)| (title.as_str(), mesh)).collect();
+        draw_mesh_sheet(&titled, &folder.join("four-meshes.png"))?;
     }
     Ok(pictures)
 }

@@ -8,12 +8,15 @@ mod findings;
 mod markdown;
 mod meshes;
 mod page;
+mod quote;
 mod sections;
 
 #[cfg(test)]
 mod fixture;
 #[cfg(test)]
 mod tests;
+
+pub use quote::quote_findings;
 
 use crate::charts::ChartError;
 use crate::experiment::journal::{JournalError, read_rows};

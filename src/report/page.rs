@@ -81,8 +81,12 @@ fn drawings(pictures: &[Picture]) -> String {
 
 const DEFAULT_QUESTION: &str = "How good and how small are the meshes that biting makes, as t and c_b vary?";
 
-/// One line for each thing asked, with its numbers.
 fn main_findings(rows: &[Row]) -> String {
+    format!("## Main findings\n\n{}\n", finding_lines(rows))
+}
+
+/// One line for each thing asked, with its numbers.
+pub(super) fn finding_lines(rows: &[Row]) -> String {
     let lines = [
         sections::angle_finding(rows),
         sections::size_finding(rows),
@@ -91,8 +95,7 @@ fn main_findings(rows: &[Row]) -> String {
         sections::certificate_finding(rows),
         sections::time_finding(rows),
     ];
-    let lines: String = lines.into_iter().flatten().map(|line| format!("* {line}\n")).collect();
-    format!("## Main findings\n\n{lines}\n")
+    lines.into_iter().flatten().map(|line| format!("* {line}\n")).collect()
 }
 
 fn what_was_run(rows: &[Row], name: &str) -> String {
