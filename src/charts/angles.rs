@@ -5,13 +5,14 @@ use super::legend::{Entry, Key, legend};
 use super::panel::{Axis, Panel};
 use super::style::{self, GREY, INK, Marker};
 use crate::experiment::record::Report;
-use crate::experiment::summary::{Grid, is_acute};
+use crate::experiment::summary::{Grid, Setting, setting};
 use crate::quality::min_angle_bound_deg;
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
 
 /// Draws the smallest angle of every measured cell of `grid` against its effective t, with the curve asin(1/2 − t).
-/// Hollow points are domains whose segments meet at an angle under 90°.
+/// Hollow points are meshes for which a hypothesis of Theorem 6.8 fails: segments meet at an angle under 90°, or circles of
+/// neighbouring input vertices meet low.
 ///
 /// # Errors
 /// [`ChartError`].
@@ -47,9 +48,9 @@ impl SmallestAngle<'_> {
         entries.push((Key::Heading, "Theorem 6.8".into()));
         entries.push((Key::Line(INK), "asin(1/2 − t)".into()));
         entries.push((Key::Heading, String::new()));
-        entries.push((Key::Heading, "segment angles".into()));
-        entries.push((Key::Point(Marker::new(0, GREY)), "none under 90°".into()));
-        entries.push((Key::Point(Marker::new(0, GREY).hollow()), "some under 90°".into()));
+        entries.push((Key::Heading, "hypotheses".into()));
+        entries.push((Key::Point(Marker::new(0, GREY)), "hold".into()));
+        entries.push((Key::Point(Marker::new(0, GREY).hollow()), "one fails".into()));
         entries
     }
 }
@@ -73,7 +74,8 @@ impl Figure for SmallestAngle<'_> {
         let middle = (self.grid.c_bs.len() as f64 - 1.0) / 2.0;
         for (index, report) in self.points() {
             let marker = self.marker(index);
-            let marker = if is_acute(report) { marker.hollow() } else { marker };
+            let is_papers = setting(report) == Setting::Papers;
+            let marker = if is_papers { marker } else { marker.hollow() };
             if let Some(angle) = report.statistics.min_angle_free_deg {
                 let apart = SPREAD * (index as f64 - middle);
                 panel.marker((report.t_effective + apart, angle), marker)?;

@@ -2,7 +2,7 @@
 
 use super::plan::Expectations;
 use super::record::{Outcome, Row};
-use super::summary;
+use super::summary::{self, Setting};
 use serde::{Deserialize, Serialize};
 
 /// An expectation and how it came out.
@@ -27,6 +27,7 @@ pub fn findings(expect: &Expectations, rows: &[Row]) -> Vec<Finding> {
     }
     if let Some(largest_t) = &expect.certificate_whole_up_to_t {
         findings.push(whole_certificates(rows, largest_t.get()));
+        findings.push(low_overlaps(rows));
     }
     if expect.measured_share > 0.0 {
         let measured = count_measured(rows);
@@ -77,13 +78,15 @@ fn certificates(rows: &[Row]) -> Finding {
     }
 }
 
-/// The paper's own setting: no input angle under 90°, t small. There every check must hold, whether its hypotheses were
-/// found to hold or not.
+/// The paper's own setting: no input angle under 90°, t small, and no circles of neighbouring input vertices that meet
+/// low. There every check must hold, whether it is guaranteed or not.
 fn whole_certificates(rows: &[Row], largest_t: f64) -> Finding {
     let inside: Vec<_> = rows
         .iter()
         .filter_map(|row| Some((row, summary::measured(row)?)))
-        .filter(|(row, report)| !summary::is_acute(report) && row.cell.lfs_cap && report.t <= largest_t)
+        .filter(|(row, report)| {
+            summary::setting(report) == Setting::Papers && row.cell.lfs_cap && report.t <= largest_t
+        })
         .collect();
     let broken: Vec<String> = inside
         .iter()
@@ -94,8 +97,31 @@ fn whole_certificates(rows: &[Row], largest_t: f64) -> Finding {
         })
         .collect();
     Finding {
-        expected: format!("without input angles under 90° and with t ≤ {largest_t:.4} every check holds"),
+        expected: format!(
+            "without input angles under 90° and with t ≤ {largest_t:.4} every check holds, unless circles of \
+             neighbouring input vertices meet low"
+        ),
         found: told(&broken, inside.len()),
+        holds: broken.is_empty(),
+    }
+}
+
+/// Circles of neighbouring input vertices cannot overlap where c_b + t ≤ 1 and f ≤ lfs.
+fn low_overlaps(rows: &[Row]) -> Finding {
+    let low: Vec<_> = rows
+        .iter()
+        .filter_map(|row| Some((row, summary::measured(row)?)))
+        .filter(|(row, report)| row.cell.lfs_cap && report.certificate.low_head_on > 0)
+        .filter(|(_, report)| summary::setting(report) == Setting::LowOverlap)
+        .collect();
+    let broken: Vec<String> = low
+        .iter()
+        .filter(|(_, report)| report.c_b + report.t_effective <= 1.0)
+        .map(|(row, _)| row.key.clone())
+        .collect();
+    Finding {
+        expected: "circles of neighbouring input vertices meet low only where c_b + t > 1".into(),
+        found: told(&broken, low.len()),
         holds: broken.is_empty(),
     }
 }

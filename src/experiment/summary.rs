@@ -10,6 +10,29 @@ pub fn is_acute(report: &Report) -> bool {
     report.smallest_segment_angle_deg < 90.0 - RIGHT_ANGLE_DEG
 }
 
+/// How the setting of a mesh relates to the one in which Theorem 6.8 is proved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// No angle under 90°, and no circles of neighbouring input vertices that meet low.
+    Papers,
+    /// No angle under 90°, but somewhere the circles of a segment's two vertices cover it between them and meet lower
+    /// than Lemma 6.4 would have it: possible only where c_b + t > 1, and excluded in the paper without a word.
+    LowOverlap,
+    /// Two neighbouring segments meet at an angle under 90°, which the paper excludes.
+    Acute,
+}
+
+/// The setting of a mesh.
+pub fn setting(report: &Report) -> Setting {
+    if is_acute(report) {
+        Setting::Acute
+    } else if report.certificate.low_head_on > 0 {
+        Setting::LowOverlap
+    } else {
+        Setting::Papers
+    }
+}
+
 /// The `q`-quantile of `values` (0 ≤ q ≤ 1), linear between neighbours; absent for no values. NaN sorts last.
 pub fn quantile(mut values: Vec<f64>, q: f64) -> Option<f64> {
     values.sort_by(f64::total_cmp);

@@ -3,7 +3,7 @@
 use super::markdown::{degrees, number, parameter};
 use crate::experiment::record::{Outcome, Report, Row};
 use crate::experiment::series::{OrderGroup, TimeSeries, order_groups, time_series};
-use crate::experiment::summary::{Grid, Pair, by_spacing, first_seen, is_acute, measured, median, quantile};
+use crate::experiment::summary::{Grid, Pair, Setting, by_spacing, first_seen, measured, median, quantile, setting};
 
 /// How cells ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,9 +53,11 @@ pub(super) fn spread(values: Vec<f64>) -> Option<Spread> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Margin {
     pub(super) t: f64,
-    /// Domains without input angles under 90°.
-    pub(super) plain: Option<Spread>,
-    /// The others.
+    /// Where the hypotheses hold.
+    pub(super) papers: Option<Spread>,
+    /// Where circles of neighbouring input vertices meet low.
+    pub(super) low: Option<Spread>,
+    /// Where segments meet at angles under 90°.
     pub(super) acute: Option<Spread>,
 }
 
@@ -64,9 +66,9 @@ fn margin_of(report: &Report) -> Option<f64> {
     Some(report.statistics.min_angle_free_deg? - report.min_angle_bound_deg)
 }
 
-/// Margins over all measured cells with or without acute input angles.
-pub(super) fn margin(grid: &Grid, acute: bool, t: Option<f64>) -> Option<Spread> {
-    let wanted = |(row, report): &(&Row, &Report)| is_acute(report) == acute && t.is_none_or(|t| row.cell.t == t);
+/// Margins over all measured cells of that setting.
+pub(super) fn margin(grid: &Grid, of: Setting, t: Option<f64>) -> Option<Spread> {
+    let wanted = |(row, report): &(&Row, &Report)| setting(report) == of && t.is_none_or(|t| row.cell.t == t);
     spread(
         grid.reports()
             .filter(wanted)
@@ -79,10 +81,54 @@ pub(super) fn margin(grid: &Grid, acute: bool, t: Option<f64>) -> Option<Spread>
 pub(super) fn margins(grid: &Grid) -> Vec<Margin> {
     let at = |t: &f64| Margin {
         t: *t,
-        plain: margin(grid, false, Some(*t)),
-        acute: margin(grid, true, Some(*t)),
+        papers: margin(grid, Setting::Papers, Some(*t)),
+        low: margin(grid, Setting::LowOverlap, Some(*t)),
+        acute: margin(grid, Setting::Acute, Some(*t)),
     };
     grid.ts.iter().map(at).collect()
+}
+
+/// What the unstated hypothesis of Theorem 6.8 does, over meshes without angles under 90°, capped by lfs, t ≤ 1/3.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LowOverlaps {
+    /// Meshes with c_b + t ≤ 1, where circles of neighbouring input vertices cannot overlap.
+    pub(super) apart: usize,
+    /// Of these, how many break the bound.
+    pub(super) apart_broken: usize,
+    /// Meshes in which such circles meet low.
+    pub(super) low: usize,
+    /// Of these, how many break the bound.
+    pub(super) low_broken: usize,
+    /// The remaining meshes that break the bound.
+    pub(super) unexplained: usize,
+    /// Smallest angle less its bound where circles meet low, at its worst, in degrees.
+    pub(super) worst_margin: f64,
+}
+
+/// Counts them.
+pub(super) fn low_overlaps(rows: &[Row]) -> LowOverlaps {
+    let mut found = LowOverlaps::default();
+    for report in rows.iter().filter_map(measured) {
+        if setting(report) == Setting::Acute || !report.lfs_cap || report.t_effective > 1.0 / 3.0 {
+            continue;
+        }
+        let Some(check) = report.certificate.check("min-angle") else {
+            continue;
+        };
+        let is_broken = usize::from(!check.holds);
+        if setting(report) == Setting::LowOverlap {
+            found.low += 1;
+            found.low_broken += is_broken;
+            found.worst_margin = found.worst_margin.min(margin_of(report).unwrap_or(0.0));
+        } else {
+            found.unexplained += is_broken;
+        }
+        if report.c_b + report.t_effective <= 1.0 {
+            found.apart += 1;
+            found.apart_broken += is_broken;
+        }
+    }
+    found
 }
 
 /// The pair with the fewest triangles among those whose smallest angle is at least `angle_deg`.
@@ -254,6 +300,7 @@ pub(super) fn broken_checks(rows: &[Row], applies: bool) -> Vec<Vec<String>> {
                 at.unwrap_or_else(|| "–".into()),
                 degrees(report.smallest_input_angle_deg),
                 degrees(report.smallest_segment_angle_deg),
+                report.certificate.low_head_on.to_string(),
                 report.forced_pieces.to_string(),
             ]);
         }

@@ -89,6 +89,7 @@ fn main_findings(rows: &[Row]) -> String {
 pub(super) fn finding_lines(rows: &[Row]) -> String {
     let lines = [
         sections::angle_finding(rows),
+        sections::hypothesis_finding(rows),
         sections::size_finding(rows),
         sections::fewest_finding(rows),
         sections::order_finding(rows),

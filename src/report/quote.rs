@@ -18,15 +18,23 @@ fn begin(folder: &str) -> String {
 /// # Errors
 /// [`ReportError`]: no rows in the folder, or a page that cannot be written.
 pub fn quote_findings(folder: &Path, page: &Path) -> Result<bool, ReportError> {
-    let Ok(text) = std::fs::read_to_string(page) else { return Ok(false) };
+    let Ok(text) = std::fs::read_to_string(page) else {
+        return Ok(false);
+    };
     let begin = begin(&folder.display().to_string());
-    let Some((before, rest)) = text.split_once(&begin) else { return Ok(false) };
-    let Some((_, after)) = rest.split_once(END) else { return Ok(false) };
+    let Some((before, rest)) = text.split_once(&begin) else {
+        return Ok(false);
+    };
+    let Some((_, after)) = rest.split_once(END) else {
+        return Ok(false);
+    };
     let findings = page::finding_lines(&read(&folder.join(ROWS))?);
     let quoted = format!("{before}{begin}\n{findings}\n{END}{after}");
     if quoted != text {
-        write_whole(page, quoted.as_bytes())
-            .map_err(|source| ReportError::Write { path: page.to_path_buf(), source })?;
+        write_whole(page, quoted.as_bytes()).map_err(|source| ReportError::Write {
+            path: page.to_path_buf(),
+            source,
+        })?;
     }
     Ok(true)
 }

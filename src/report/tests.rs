@@ -31,11 +31,11 @@ fn three_domains() -> Vec<Row> {
 fn margins_by_hand() {
     let rows = three_domains();
     let margins = margins(&Grid::of(&rows));
-    let plain = margins[0].plain.unwrap();
+    let plain = margins[0].papers.unwrap();
     assert_eq!((plain.count, margins.len()), (2, 2));
     assert!((plain.least - 1.0).abs() < 1e-9 && (plain.median - 2.5).abs() < 1e-9 && (plain.most - 4.0).abs() < 1e-9);
     assert!((margins[0].acute.unwrap().least + 2.0).abs() < 1e-9);
-    assert_eq!(margins[1].plain.unwrap().count, 1);
+    assert_eq!(margins[1].papers.unwrap().count, 1);
 }
 
 #[test]

@@ -18,8 +18,8 @@
 //! With t = α c_b, each a check of the certificate: packing circles of radius c_b f / (2 + t) are disjoint (Lemma 5.4,
 //! `packing-disjoint`); every point of the domain is covered by a biting circle (Theorem 5.5, `coverage`); the
 //! smallest angle is at least asin(1/2 − t) (Theorem 6.8, `min-angle`); nearest-neighbour distances are within
-//! constants of f (Lemmas 5.7 and 5.8, `nn-vertex-*`, `nn-point-*`). What the last three need besides is in
-//! [`crate::quality`].
+//! constants of f (Lemmas 5.7 and 5.8, `nn-vertex-*`, `nn-point-*`). What each needs besides is in [`crate::quality`]:
+//! the angle bound, for one, needs c_b + t ≤ 1, which the paper does not say.
 //!
 //! # Cost
 //! O(1) a bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
