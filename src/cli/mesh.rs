@@ -15,10 +15,10 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 /// The default of `--t`: see the page of findings in `results/sweep`.
-pub const DEFAULT_T: &str = "1/3";
+pub const DEFAULT_T: &str = "0.25";
 
 /// The default of `--c-b`: see the page of findings in `results/sweep`.
-pub const DEFAULT_C_B: &str = "1";
+pub const DEFAULT_C_B: &str = "0.75";
 
 #[derive(clap::Args)]
 pub struct Arguments {

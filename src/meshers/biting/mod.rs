@@ -72,7 +72,7 @@ pub(super) const ENTRY: Entry = Entry {
     parameters: &[Parameter {
         name: "order",
         values: "fifo, lifo, sharpest, flattest, equilateral, smallest, largest, random",
-        default: "equilateral",
+        default: "largest",
         help: "which front vertex is bitten next (open in §5.1; the default is what the sweep found best)",
     }],
     guarantees: &[

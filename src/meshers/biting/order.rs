@@ -22,11 +22,11 @@ pub enum Order {
     /// The front vertex where the uneaten wedge is widest.
     Flattest,
     /// The front vertex whose triangle with its two centres is nearest to equilateral, by area over squared edges.
-    #[default]
     Equilateral,
     /// The front vertex with the smallest biting circle.
     Smallest,
     /// The front vertex with the largest biting circle.
+    #[default]
     Largest,
     /// Any, by seed.
     Random,
