@@ -108,23 +108,36 @@ pub fn family(spacing: &str) -> &str {
 /// Longer spacings are called by their family's name alone: they would not fit over a chart.
 const LONGEST_TITLE: usize = 24;
 
-/// Splits rows by the family of their spacing: `lfs` first, since the paper's sizes refer to it, then the others in the
-/// order in which they first appear. Each comes with a title: the spacing itself where all are the same and it is short, else its family.
+/// More spacings of one family than this are taken together.
+const MOST_OF_A_FAMILY: usize = 4;
+
+/// Splits rows by their spacing: `lfs` first, since the paper's sizes refer to it, then the others in the order in which
+/// they first appear, those of one family side by side. Each comes with a title: the spacing itself where it is short,
+/// else its family's name, numbered where the family has several.
 pub fn by_spacing<'a>(rows: &[&'a Row]) -> Vec<(String, Vec<&'a Row>)> {
     let mut families = first_seen(rows.iter().map(|row| family(&row.cell.spacing)));
     families.sort_by_key(|name| *name != "lfs");
-    let split = families.into_iter().map(|name| {
-        let own: Vec<&Row> = rows
-            .iter()
-            .copied()
-            .filter(|row| family(&row.cell.spacing) == name)
-            .collect();
-        let specs = first_seen(own.iter().map(|row| row.cell.spacing.as_str()));
-        let short = specs.len() == 1 && specs[0].chars().count() <= LONGEST_TITLE;
-        let title = if short { specs[0] } else { name }.to_string();
-        (title, own)
-    });
-    split.collect()
+    let mut split = Vec::new();
+    for name in families {
+        let own = |row: &&&Row| family(&row.cell.spacing) == name;
+        let specs = first_seen(rows.iter().filter(own).map(|row| row.cell.spacing.as_str()));
+        if specs.len() > MOST_OF_A_FAMILY {
+            split.push((name.to_string(), rows.iter().filter(own).copied().collect()));
+            continue;
+        }
+        for (place, spec) in specs.iter().enumerate() {
+            let title = match (spec.chars().count() <= LONGEST_TITLE, specs.len()) {
+                (true, _) => spec.to_string(),
+                (false, 1) => name.to_string(),
+                (false, _) => format!("{name} {}", place + 1),
+            };
+            split.push((
+                title,
+                rows.iter().filter(|row| row.cell.spacing == *spec).copied().collect(),
+            ));
+        }
+    }
+    split
 }
 
 /// Rows over t × c_b.

@@ -6,7 +6,7 @@ use super::markdown::{degrees, number, parameter, plain, table};
 use super::meshes::Picture;
 use super::sections;
 use crate::experiment::record::{Outcome, Row};
-use crate::experiment::summary::{first_seen, measured, quantile};
+use crate::experiment::summary::{by_spacing, first_seen, measured, quantile};
 
 /// What the page tells besides the rows.
 #[derive(Clone, Debug, Default)]
@@ -126,16 +126,26 @@ fn what_was_run(rows: &[Row], name: &str) -> String {
             let names: Vec<String> = values.iter().map(|value| parameter(*value)).collect();
             names.join(", ")
         };
-        let specs = first_seen(grid.rows.iter().map(|row| row.cell.spacing.as_str())).join("`, `");
-        let meant = if specs == title {
-            String::new()
-        } else {
-            format!(", that is `{specs}`,")
-        };
+        let meant = meaning(&title, &grid.rows);
         let (ts, c_bs) = (values(&grid.ts), values(&grid.c_bs));
         text += &format!("Grid with spacing `{title}`{meant} over t = {ts}; c_b = {c_bs}.\n\n");
     }
+    for (title, rows) in by_spacing(&of_group(rows, "orders")) {
+        let meant = meaning(&title, &rows);
+        let domains = first_seen(rows.iter().map(|row| row.cell.domain.as_str())).join("`, `");
+        text += &format!("Orders with spacing `{title}`{meant} on `{domains}`.\n\n");
+    }
     text
+}
+
+/// The spacings behind a title that is not the spacing itself.
+fn meaning(title: &str, rows: &[&Row]) -> String {
+    let specs = first_seen(rows.iter().map(|row| row.cell.spacing.as_str())).join("`, `");
+    if specs == title {
+        String::new()
+    } else {
+        format!(", that is `{specs}`,")
+    }
 }
 
 /// Command, version, machine and date of the measured rows.

@@ -240,24 +240,32 @@ pub(super) fn order_finding(rows: &[Row]) -> Option<String> {
 fn best_order(findings: &[OrderFinding], spacing: &str) -> Option<String> {
     let own = || findings.iter().filter(|finding| finding.spacing == spacing);
     let top = |value: fn(&OrderFinding) -> Option<f64>| {
-        own()
-            .filter(|finding| value(finding).is_some())
-            .max_by(|a, b| value(a).unwrap_or(0.0).total_cmp(&value(b).unwrap_or(0.0)))
+        own().filter(|finding| value(finding).is_some()).max_by(|a, b| {
+            value(a)
+                .unwrap_or(f64::NEG_INFINITY)
+                .total_cmp(&value(b).unwrap_or(f64::NEG_INFINITY))
+        })
     };
     let (mean, smallest) = (top(|finding| finding.mean_deg)?, top(|finding| finding.smallest_deg)?);
+    let fewest = top(|finding| finding.efficiency.map(|efficiency| -efficiency))?;
     let fastest = own()
         .filter_map(|finding| finding.seconds_per_triangle)
         .fold(f64::INFINITY, f64::min);
     let cost = |finding: &OrderFinding| number(finding.seconds_per_triangle.map(|seconds| seconds / fastest));
     Some(format!(
         "with `{spacing}` `{}` has the largest mean smallest angle ({}, at {} times the time of the fastest order), `{}` \
-         the largest smallest angle ({}, at {} times)",
+         the largest smallest angle ({}, at {} times), `{}` the fewest triangles (size efficiency {}, smallest angle {}, \
+         mean {})",
         mean.order,
         degrees(mean.mean_deg),
         cost(mean),
         smallest.order,
         degrees(smallest.smallest_deg),
-        cost(smallest)
+        cost(smallest),
+        fewest.order,
+        number(fewest.efficiency),
+        degrees(fewest.smallest_deg),
+        degrees(fewest.mean_deg)
     ))
 }
 
