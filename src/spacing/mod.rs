@@ -22,6 +22,8 @@ mod grammar;
 mod integral;
 mod interval;
 mod lfs;
+#[cfg(test)]
+mod limit_tests;
 mod limited;
 mod parse;
 mod program;
