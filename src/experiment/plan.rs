@@ -235,7 +235,7 @@ impl Plan {
             problem,
         };
         let text = std::fs::read_to_string(file)
-            .map_err(|cause| error(format!("{cause}; `biting list` shows the experiments that are there")))?;
+            .map_err(|cause| error(format!("{cause}; run in a checkout, where `biting list` shows the experiments, or name a file")))?;
         let name = file
             .file_stem()
             .map_or_else(|| "experiment".into(), |stem| stem.to_string_lossy().into_owned());
