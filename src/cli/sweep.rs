@@ -91,7 +91,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let store = Store::new(None, false);
     if arguments.dry_run {
-        return dry_run(&plan, &cells, &tasks(&plan, &cells, &store)?, arguments.threads());
+        return dry_run(
+            &plan,
+            &cells,
+            &tasks(&plan, &cells, &store, arguments.threads())?,
+            arguments.threads(),
+        );
     }
     let folder = arguments.place.results.join(&plan.name);
     let provenance = machine::provenance();
@@ -140,7 +145,7 @@ impl Arguments {
             say(format_args!("all {done} cells have rows; --fresh measures them anew"));
             return Ok(());
         }
-        let mut tasks = tasks(plan, cells, store)?;
+        let mut tasks = tasks(plan, cells, store, self.threads())?;
         if let Some(shard) = self.shard {
             let all = tasks.into_iter().enumerate();
             tasks = all.filter(|(at, _)| shard.has(*at)).map(|(_, task)| task).collect();
@@ -197,8 +202,8 @@ fn start_anew_if_needed(fresh: bool, cells: &[PlannedCell], journal: &mut Journa
     Ok(())
 }
 
-fn tasks(plan: &Plan, cells: &[PlannedCell], store: &Store) -> Result<Vec<Task>, Failure> {
-    store.survey(cells.iter().map(|planned| &planned.cell));
+fn tasks(plan: &Plan, cells: &[PlannedCell], store: &Store, threads: usize) -> Result<Vec<Task>, Failure> {
+    store.survey(cells.iter().map(|planned| &planned.cell), threads);
     work::tasks(cells, |cell| store.outlook(cell), measure::complete)
         .map_err(|error| Failure::Input(format!("{}: {error}", plan.file.display())))
 }

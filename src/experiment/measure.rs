@@ -69,7 +69,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
         smallest_segment_angle_deg: site.domain.smallest_segment_angle_deg(),
         forced_pieces: run.mesh.forced_pieces,
         integral,
-        integral_error: prepared.integral.relative_error(),
+        integral_error: prepared.integral.error,
         integral_lfs: site.integral_lfs.value,
         size_ratio,
         size_ratio_lfs: triangles / site.integral_lfs.value,

@@ -234,8 +234,11 @@ impl Plan {
             file: file.to_owned(),
             problem,
         };
-        let text = std::fs::read_to_string(file)
-            .map_err(|cause| error(format!("{cause}; run in a checkout, where `biting list` shows the experiments, or name a file")))?;
+        let text = std::fs::read_to_string(file).map_err(|cause| {
+            error(format!(
+                "{cause}; run in a checkout, where `biting list` shows the experiments, or name a file"
+            ))
+        })?;
         let name = file
             .file_stem()
             .map_or_else(|| "experiment".into(), |stem| stem.to_string_lossy().into_owned());

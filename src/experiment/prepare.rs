@@ -3,11 +3,10 @@
 use super::record::Cell;
 use super::work::Outlook;
 use crate::domain::{self, Domain, DomainError, RepairReport};
-use crate::geometry::DVec2;
 use crate::quality::Bounds;
-use crate::spacing::{self, Options, Spacing, SpacingError};
-use rayon::prelude::*;
+use crate::spacing::{self, Integral, Options, Spacing, SpacingError};
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Relative error asked of the integrals in rows.
@@ -70,7 +69,7 @@ impl Prepared {
             c_b,
             lfs_cap: self.lfs_cap,
             integral: Some(self.integral.value),
-            integral_error: self.integral.relative_error(),
+            integral_error: self.integral.error,
             guaranteed,
         }
     }
@@ -152,19 +151,24 @@ impl Store {
     }
 
     /// Makes the domains and spacings of all cells, side by side. What is wrong with one is told when it is asked for.
-    pub fn survey<'a>(&self, cells: impl IntoIterator<Item = &'a Cell>) {
+    pub fn survey<'a>(&self, cells: impl IntoIterator<Item = &'a Cell>, threads: usize) {
         let distinct: BTreeMap<_, &Cell> = cells
             .into_iter()
             .map(|cell| ((&cell.domain, &cell.spacing, cell.lfs_cap), cell))
             .collect();
-        distinct
-            .into_values()
-            .collect::<Vec<_>>()
-            .into_par_iter()
-            .for_each(|cell| {
-                // The error stays on the shelf.
-                let _ = self.base(cell);
-            });
+        let distinct: Vec<&Cell> = distinct.into_values().collect();
+        let next = AtomicUsize::new(0);
+        // Threads of our own: one of rayon's, waiting here, could be handed the very value it waits for.
+        std::thread::scope(|scope| {
+            for _ in 0..threads {
+                scope.spawn(|| {
+                    while let Some(cell) = distinct.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        // The error stays on the shelf.
+                        let _ = self.base(cell);
+                    }
+                });
+            }
+        });
     }
 
     /// What is known of a cell's spacing before limiting.
@@ -196,9 +200,14 @@ impl Store {
             });
         };
         let refused = told(&site.domain);
-        let built = spacing::build(&spec, &site.domain, &self.options(cell, alpha)).map_err(&refused)?;
-        let spacing = built.function;
-        let integral = integrate(&site.domain, &*spacing, INTEGRAL_ERROR).map_err(&refused)?;
+        let spacing = spacing::limit(
+            base.spacing.clone(),
+            &site.domain,
+            alpha,
+            self.options(cell, alpha).limit_factor,
+        )
+        .map_err(&refused)?;
+        let integral = spacing::integrate(&*spacing, &site.domain, INTEGRAL_ERROR).map_err(&refused)?;
         Ok(Prepared {
             site,
             spec,
@@ -230,7 +239,7 @@ impl Store {
         self.sites.get(name.to_owned(), || {
             let domain = self.domain(name)?;
             let lfs = spacing::lfs_of(&domain).map_err(told(&domain))?;
-            let integral_lfs = integrate(&domain, &lfs, INTEGRAL_ERROR).map_err(told(&domain))?;
+            let integral_lfs = spacing::integrate(&lfs, &domain, INTEGRAL_ERROR).map_err(told(&domain))?;
             Ok(Arc::new(Site { domain, integral_lfs }))
         })
     }
@@ -245,7 +254,7 @@ impl Store {
             let integral = if built.spec == "lfs" {
                 site.integral_lfs
             } else {
-                integrate(&site.domain, &*built.function, INTEGRAL_ERROR).map_err(told(&site.domain))?
+                spacing::integrate(&*built.function, &site.domain, INTEGRAL_ERROR).map_err(told(&site.domain))?
             };
             Ok(Arc::new(Base {
                 site,
@@ -275,43 +284,4 @@ fn fill_in(spacing: &str, domain: &Domain) -> String {
         .fold(spacing.to_owned(), |text, (name, value)| {
             text.replace(name, &format!("({value})"))
         })
-}
-
-/// An integral with its estimated error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Integral {
-    /// Its value.
-    pub value: f64,
-    /// Estimated absolute error.
-    pub error: f64,
-}
-
-impl Integral {
-    /// Estimated relative error.
-    pub fn relative_error(self) -> f64 {
-        self.error / self.value
-    }
-}
-
-/// ∫_Ω dA / f² by the midpoint rule on a grid; the error is what halving the grid changes.
-fn integrate(domain: &Domain, spacing: &dyn Spacing, _tolerance: f64) -> Result<Integral, SpacingError> {
-    let (bounds, half) = (domain.bounds(), 150);
-    let sum = |count: usize| -> f64 {
-        let cells = (0..count * count).into_par_iter().map(|cell| {
-            let place = DVec2::new((cell % count) as f64 + 0.5, (cell / count) as f64 + 0.5) / count as f64;
-            let x = bounds.min + bounds.size() * place;
-            if domain.contains(x) {
-                spacing.at(x).powi(-2)
-            } else {
-                0.0
-            }
-        });
-        let size = bounds.size() / count as f64;
-        cells.collect::<Vec<f64>>().iter().sum::<f64>() * size.x * size.y
-    };
-    let (coarse, value) = (sum(half), sum(2 * half));
-    Ok(Integral {
-        value,
-        error: (value - coarse).abs(),
-    })
 }

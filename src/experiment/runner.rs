@@ -12,8 +12,9 @@ use super::plan::PlannedCell;
 use super::prepare::{Prepared, Store};
 use super::record::{Cell, Outcome, Provenance, Report, Row};
 use super::summary;
-use super::work::{Task, Unit, expected_triangles};
+use super::work::{Task, Unit};
 use crate::meshers::{self, Budget, Entry, MeshError, Mesher, Request};
+use crate::spacing::estimate_triangles;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -195,7 +196,7 @@ impl Sweep<'_> {
         };
         let (limit, estimated) = (
             budget_triangles(unit, self.cells),
-            expected_triangles(prepared.integral.value, planned.cell.c_b),
+            estimate_triangles(prepared.integral.value, planned.cell.c_b),
         );
         if estimated > limit {
             return too_large(estimated, limit);

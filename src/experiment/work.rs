@@ -2,6 +2,7 @@
 
 use super::plan::PlannedCell;
 use super::record::Cell;
+use crate::spacing::estimate_triangles;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
@@ -34,11 +35,6 @@ pub struct Task {
     pub alpha: Option<f64>,
     /// What to mesh.
     pub units: Vec<Unit>,
-}
-
-/// Triangles of a mesh of equilateral triangles with edges c_b f, from ∫ dA / f².
-pub fn expected_triangles(integral: f64, c_b: f64) -> f64 {
-    4.0 / 3.0f64.sqrt() * integral / (c_b * c_b)
 }
 
 /// A guess at how ∫ dA / f² grows when a spacing with constant `lipschitz` is limited to `alpha`: where the boundary
@@ -100,8 +96,8 @@ pub fn tasks<E>(
         let unit = *unit_of.entry(method).or_insert_with(|| {
             units.push(Unit {
                 cells: Vec::new(),
-                guessed_triangles: expected_triangles(ahead.integral * growth(ahead, asked), cell.c_b),
-                least_triangles: expected_triangles(ahead.integral, cell.c_b),
+                guessed_triangles: estimate_triangles(ahead.integral * growth(ahead, asked), cell.c_b),
+                least_triangles: estimate_triangles(ahead.integral, cell.c_b),
             });
             units.len() - 1
         });
