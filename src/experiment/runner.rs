@@ -51,14 +51,13 @@ pub struct Sweep<'a> {
 
 /// Triangles of work a unit stands for, skipped ones a little, so that progress is even.
 pub fn weight(unit: &Unit, cells: &[PlannedCell]) -> f64 {
-    // Skipping costs little; setting a cell up costs about as much as some thousand triangles.
-    const SKIPPED: f64 = 100.0;
-    const SET_UP: f64 = 3000.0;
-    let first = &cells[unit.cells[0]];
+    // What a cell costs besides: its row, and little else.
+    const ROW: f64 = 500.0;
+    let repeats = cells[unit.cells[0]].repeats as f64;
     if unit.guessed_triangles > budget_triangles(unit, cells) {
-        SKIPPED
+        ROW + unit.set_up
     } else {
-        (SET_UP + unit.guessed_triangles) * first.repeats as f64
+        ROW + unit.set_up + unit.guessed_triangles * repeats
     }
 }
 

@@ -6,6 +6,10 @@ use crate::spacing::estimate_triangles;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
+/// Limiting a spacing and integrating 1 / f² takes about as long as meshing and judging so many triangles for each unit of
+/// ∫ dA / f²: measured on outlines of some thousand segments.
+const SET_UP_PER_INTEGRAL: f64 = 100.0;
+
 /// What is known of a cell's surroundings before it is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outlook {
@@ -22,6 +26,8 @@ pub struct Unit {
     pub cells: Vec<usize>,
     /// Triangles to be expected before the limited spacing is known: a guess for progress and dry runs.
     pub guessed_triangles: f64,
+    /// What making the limited spacing costs, told in triangles; 0 but for the first unit of a task that limits.
+    pub set_up: f64,
     /// Triangles there must be at least, since limiting only makes a spacing smaller.
     pub least_triangles: f64,
 }
@@ -94,8 +100,14 @@ pub fn tasks<E>(
         );
         let units = &mut tasks[task].units;
         let unit = *unit_of.entry(method).or_insert_with(|| {
+            let limits = alpha.is_some() && units.is_empty();
             units.push(Unit {
                 cells: Vec::new(),
+                set_up: if limits {
+                    SET_UP_PER_INTEGRAL * ahead.integral
+                } else {
+                    0.0
+                },
                 guessed_triangles: estimate_triangles(ahead.integral * growth(ahead, asked), cell.c_b),
                 least_triangles: estimate_triangles(ahead.integral, cell.c_b),
             });
