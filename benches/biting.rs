@@ -4,6 +4,7 @@
 //! loop is printed in bytes a point.
 
 use biting::domain::gallery;
+use biting::experiment::summary::{fit_line, median};
 use biting::geometry::DVec2;
 use biting::meshers::biting::{Biting, Order};
 use biting::meshers::{Budget, Mesher, Request, Trace};
@@ -11,7 +12,7 @@ use biting::spacing::Spacing;
 use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
 use peak_alloc::PeakAlloc;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 #[global_allocator]
 static ALLOCATED: PeakAlloc = PeakAlloc;
@@ -88,5 +89,52 @@ fn a_million_points(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, a_million_points);
+/// Slope of log seconds against log triangles, of the whole mesh and of spade's bulk load of the same points in the same
+/// run: a whole mesh may grow no faster than the triangulation it contains.
+fn growth(_: &mut Criterion) {
+    let domain = gallery::domain("unit-square")
+        .expect("a gallery name")
+        .expect("a valid domain");
+    let request = Request {
+        c_b: 1.0,
+        seed: 0,
+        threads: 1,
+        budget: Budget::default(),
+    };
+    let (mut whole, mut alone) = (Vec::new(), Vec::new());
+    for triangles in [1e4, 3e4, 1e5, 3e5, 1e6, 4e6] {
+        let spacing = Waves {
+            scale: 0.004 * (162e3f64 / triangles).sqrt(),
+        };
+        let (mut meshing, mut loading, mut made) = (Vec::new(), Vec::new(), 0);
+        for _ in 0..3 {
+            let start = Instant::now();
+            let mesh = Biting::default()
+                .mesh(&domain, &spacing, &request, &mut Trace::default())
+                .expect("a mesh");
+            meshing.push(start.elapsed().as_secs_f64());
+            let points: Vec<_> = mesh.points.iter().map(|p| Point2::new(p.x, p.y)).collect();
+            let start = Instant::now();
+            let loaded = DelaunayTriangulation::<Point2<f64>>::bulk_load(points).expect("points");
+            loading.push(start.elapsed().as_secs_f64());
+            made = mesh.triangles.len();
+            assert_eq!(loaded.num_vertices(), mesh.points.len());
+        }
+        let (mesh, load) = (median(meshing).unwrap_or(0.0), median(loading).unwrap_or(0.0));
+        println!(
+            "{made} triangles: whole mesh {mesh:.4} s, spade's bulk load {load:.4} s, ratio {:.2}",
+            mesh / load
+        );
+        whole.push(((made as f64).log10(), mesh.log10()));
+        alone.push(((made as f64).log10(), load.log10()));
+    }
+    let slope = |points: &[(f64, f64)]| fit_line(points).map_or(f64::NAN, |line| line.slope);
+    println!(
+        "slope of the whole mesh {:.3}, of spade's bulk load {:.3}",
+        slope(&whole),
+        slope(&alone)
+    );
+}
+
+criterion_group!(benches, growth, a_million_points);
 criterion_main!(benches);
