@@ -1,33 +1,20 @@
 //! Cost of the control spacing: building and evaluating lfs, the limiter and an expression, and ∫ dA / f².
 //!
-//! The domain is an outline of 3072 segments; queries come in the order of a mesh, neighbours after one another. The
+//! The domain is a real outline of 3601 segments; queries come in the order of a mesh, neighbours after one another. The
 //! nearest-segment query of the domain stands beside lfs: lfs should cost at most three times as much.
 
-use biting::domain::{Domain, Pslg};
+use biting::domain::{Domain, gallery};
 use biting::geometry::{DVec2, Rect};
 use biting::spacing::{Expression, Options, Spacing, Uniform, build, integrate, lfs_of, limit};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64;
 use std::hint::black_box;
 use std::sync::Arc;
 
-/// A coast: a hexagon whose sides are broken again and again.
-fn outline(levels: u32) -> Domain {
-    let mut random = Pcg64::seed_from_u64(5);
-    let mut ring: Vec<DVec2> = (0..6).map(|k| DVec2::from_angle(f64::from(k))).collect();
-    for _ in 0..levels {
-        let count = ring.len();
-        let broken = (0..count).flat_map(|k| {
-            let (a, b) = (ring[k], ring[(k + 1) % count]);
-            let (along, across): (f64, f64) = (random.random_range(0.4..0.6), random.random_range(-0.175..0.175));
-            [a, a + along * (b - a) + across * (b - a).perp()]
-        });
-        ring = broken.collect();
-    }
-    let mut pslg = Pslg::new("outline");
-    pslg.add_ring(ring, 1);
-    Domain::new(pslg).expect("the outline does not cross itself")
+/// A real coast with islands.
+fn outline() -> Domain {
+    gallery::domain("aegean")
+        .expect("the gallery has it")
+        .expect("the gallery is valid")
 }
 
 /// Points of the domain row by row, every other row backwards.
@@ -45,7 +32,7 @@ fn evaluate(points: &[DVec2], f: impl Fn(DVec2) -> f64) -> f64 {
 }
 
 fn evaluations(criterion: &mut Criterion) {
-    let domain = outline(9);
+    let domain = outline();
     let points = walk(&domain, 300);
     let lfs = Arc::new(lfs_of(&domain).expect("a polygon has features"));
     let unit = Rect {
@@ -74,7 +61,7 @@ fn evaluations(criterion: &mut Criterion) {
 }
 
 fn builds(criterion: &mut Criterion) {
-    let domain = outline(9);
+    let domain = outline();
     let lfs = Arc::new(lfs_of(&domain).expect("a polygon has features"));
     let mut group = criterion.benchmark_group("build");
     group.sample_size(10);
@@ -88,7 +75,7 @@ fn builds(criterion: &mut Criterion) {
 }
 
 fn integrals(criterion: &mut Criterion) {
-    let domain = outline(9);
+    let domain = outline();
     let mut group = criterion.benchmark_group("integral");
     group.sample_size(10);
     group.bench_function("uniform", |b| b.iter(|| integrate(&Uniform(0.1), &domain, 1e-3)));
