@@ -82,6 +82,9 @@ fn steps(shares: &[f64]) -> Vec<(f64, f64)> {
         .collect()
 }
 
+/// Uniform spacing puts nearly all triangles into one degree; above this share lines are cut, so that the rest shows.
+const CUT: f64 = 30.0;
+
 /// Small panels of equal axes, one line a series in each.
 struct Multiples {
     /// Title of each panel, and the shares of each series in it.
@@ -109,19 +112,21 @@ impl Figure for Multiples {
         let (plots, key) = area.split_vertically((self.size().1 as i32 - 40) * FINE);
         let (count, columns) = (self.panels.len(), self.columns());
         let all = self.panels.iter().flat_map(|(_, shares)| shares.iter().flatten());
-        let top = all.copied().fold(1.0, f64::max) * 1.05;
+        let most = all.copied().fold(1.0, f64::max);
+        let (top, unit) = if most > CUT {
+            (CUT, format!("triangles (% a degree, cut at {CUT})"))
+        } else {
+            (1.05 * most, "triangles (% a degree)".to_string())
+        };
         let areas = plots.split_evenly((count.div_ceil(columns).max(1), columns));
         for (index, ((title, lines), area)) in self.panels.iter().zip(&areas).enumerate() {
             let is_last = index + columns >= count;
             let x = Axis::linear(if is_last { "smallest angle (degrees)" } else { "" }, 0.0..60.0, 6);
-            let label = if index % columns == 0 {
-                "triangles (% a degree)"
-            } else {
-                ""
-            };
+            let label = if index % columns == 0 { unit.as_str() } else { "" };
             let mut panel = Panel::new(area, title, x, Axis::linear(label, 0.0..top, 5), 56)?;
             for (series, shares) in lines.iter().enumerate() {
-                panel.line(&steps(shares), style::category(series), 3)?;
+                let shares: Vec<f64> = shares.iter().map(|share| share.min(top)).collect();
+                panel.line(&steps(&shares), style::category(series), 3)?;
             }
         }
         let entries = self.series.iter().enumerate();

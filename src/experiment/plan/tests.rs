@@ -71,7 +71,7 @@ fn mistakes_are_named_with_file_and_place() {
         ("t = [0.25, \"1/3\"]", "t = [0.25, -1]", "must be positive"),
         ("t = [0.25, \"1/3\"]", "t = []", "group `grid` has an empty list"),
         ("t = [0.25, \"1/3\"]", "t = [0.25, 0.25]", "twice"),
-        ("timed = true", "timd = true", "line 28"),
+        ("timed = true", "timd = true", "line 25"),
         ("question", "qestion", "line 2"),
         ("timed = true", "timed = true\nrepeats = 0", "at least 1"),
     ] {
