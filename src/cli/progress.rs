@@ -66,18 +66,13 @@ impl State {
     fn line(&self, row: &Row) -> String {
         let share = (self.weight / self.total_weight.max(1.0)).min(1.0);
         let elapsed = self.started.elapsed().as_secs_f64();
-        let left = if share > 0.0 {
-            elapsed * (1.0 - share) / share
+        // Too early nothing can be said: the first cells are the smallest.
+        let left = if share < 0.01 {
+            String::new()
         } else {
-            0.0
+            format!(", about {:.0} s left", elapsed * (1.0 - share) / share)
         };
-        format!(
-            "{} of {} cells, about {left:.0} s left: {} {}",
-            self.rows,
-            self.of,
-            row.key,
-            ending(row)
-        )
+        format!("{} of {} cells{left}: {} {}", self.rows, self.of, row.key, ending(row))
     }
 }
 

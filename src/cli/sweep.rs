@@ -25,7 +25,7 @@ const UNKNOWN_MEMORY: u64 = 2_000_000_000;
 
 /// Seconds of one core a triangle costs, mesh and certificate and spacing together, for the estimate of `--dry-run`:
 /// the committed sweep's, rounded up.
-const SECONDS_PER_TRIANGLE: f64 = 12e-6;
+const SECONDS_PER_TRIANGLE: f64 = 4e-6;
 
 #[derive(clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
@@ -157,7 +157,7 @@ impl Arguments {
         tasks.retain(|task| !task.units.is_empty());
         let units = || tasks.iter().flat_map(|task| &task.units);
         let pending = units().map(|unit| unit.cells.len()).sum();
-        say(format_args!("{}: {pending} cells to run, {done} have rows", plan.name));
+        say(format_args!("{}: {pending} cells to run, {done} are done", plan.name));
         let available = || {
             let free = machine::available_memory_bytes().unwrap_or(UNKNOWN_MEMORY);
             (free as f64 * MEMORY_SHARE) as u64

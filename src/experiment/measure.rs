@@ -120,3 +120,46 @@ pub fn fingerprint(mesh: &Mesh) -> String {
     });
     format!("{hash:016x}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::DVec2;
+
+    #[test]
+    fn a_fingerprint_sees_one_bit_and_one_corner() {
+        let mesh = Mesh {
+            points: vec![DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE],
+            triangles: vec![[0, 1, 2], [1, 3, 2]],
+            ..Mesh::default()
+        };
+        let (mut moved, mut turned) = (mesh.clone(), mesh.clone());
+        moved.points[3].y = 1.0f64.next_up();
+        turned.triangles[1] = [3, 2, 1];
+        let all = [&mesh, &moved, &turned].map(fingerprint);
+        assert_eq!(all[0], fingerprint(&mesh.clone()));
+        assert!(all[0] != all[1] && all[0] != all[2] && all[1] != all[2], "{all:?}");
+    }
+
+    #[test]
+    fn defaults_complete_what_a_cell_names() {
+        for entry in meshers::MESHERS {
+            let mut cell = Cell {
+                domain: "unit-square".into(),
+                mesher: entry.name.into(),
+                params: Map::new(),
+                spacing: "lfs".into(),
+                t: 0.25,
+                c_b: 0.5,
+                seed: 0,
+                lfs_cap: true,
+                timed: false,
+            };
+            let defaults = complete(&cell);
+            assert_eq!(defaults.len(), entry.parameters.len(), "{}", entry.name);
+            assert!((entry.make)(&defaults).is_ok(), "{}: its defaults make it", entry.name);
+            cell.params = defaults.clone();
+            assert_eq!(complete(&cell), defaults);
+        }
+    }
+}

@@ -56,7 +56,7 @@ fn a_killed_sweep_is_resumed() {
     let bytes = fs::read(&file).expect("read");
     fs::write(&file, &bytes[..bytes.len() * 2 / 3]).expect("cut off, as by a kill");
     let (out, err) = run(folder.path(), &["sweep", "try.toml"], 0);
-    assert!(out.contains("have rows") && err.contains("cut off"), "{out}{err}");
+    assert!(out.contains("are done") && err.contains("cut off"), "{out}{err}");
     assert_eq!(rows(&file), whole);
 
     let (out, _) = run(folder.path(), &["sweep", "try.toml", "--fresh"], 0);
