@@ -1,5 +1,6 @@
 //! `README.md` of a results folder: what was run, what came out, the charts.
 
+use super::angles;
 use super::figures::{Chart, Section};
 use super::findings::{grids, of_group, spread, tally};
 use super::markdown::{degrees, number, parameter, plain, table};
@@ -28,11 +29,7 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
     text += &main_findings(rows);
     text += &what_was_run(rows, &heading.name);
     let parts = [
-        (
-            "Smallest angle against its bound",
-            sections::angles(rows),
-            Section::Angle,
-        ),
+        ("Smallest angle against its bound", angles::angles(rows), Section::Angle),
         ("Size", sections::sizes(rows), Section::Size),
         (
             "Fewest triangles for a smallest angle",
@@ -88,8 +85,8 @@ fn main_findings(rows: &[Row]) -> String {
 /// One line for each thing asked, with its numbers.
 pub(super) fn finding_lines(rows: &[Row]) -> String {
     let lines = [
-        sections::angle_finding(rows),
-        sections::hypothesis_finding(rows),
+        angles::angle_finding(rows),
+        angles::hypothesis_finding(rows),
         sections::size_finding(rows),
         sections::fewest_finding(rows),
         sections::order_finding(rows),
