@@ -78,7 +78,19 @@ pub struct Journal {
     /// Bytes of an unfinished last line that were cut off on opening.
     pub cut_off: usize,
     // Holds the lock until the journal is dropped or the process dies, however it dies.
-    _lock: File,
+    _lock: Lock,
+}
+
+/// A locked file. Closing it is not enough to give the lock back: a process that another thread is just starting holds
+/// a copy of the open file until it runs its own program.
+#[derive(Debug)]
+struct Lock(File);
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // Where it cannot be given back now, the system gives it back when the last copy is closed.
+        let _ = self.0.unlock();
+    }
 }
 
 impl Journal {
@@ -243,7 +255,7 @@ fn insert(lines: &mut Vec<Line>, index: &mut HashMap<String, usize>, line: Line)
 }
 
 /// Takes the lock at `path`. The system gives it back when the process ends, so no stale lock can be left.
-fn lock(path: &Path) -> Result<File, JournalError> {
+fn lock(path: &Path) -> Result<Lock, JournalError> {
     let mut file = OpenOptions::new()
         .create(true)
         .truncate(false)
@@ -268,7 +280,7 @@ fn lock(path: &Path) -> Result<File, JournalError> {
     file.set_len(0)
         .and_then(|()| write!(file, "process {}", std::process::id()))
         .map_err(io_error(path))?;
-    Ok(file)
+    Ok(Lock(file))
 }
 
 #[cfg(test)]
