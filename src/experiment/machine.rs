@@ -66,12 +66,17 @@ fn kilobytes_in(file: &str, field: &str) -> Option<u64> {
 
 /// What git says in the checkout this crate was built from; nothing outside one.
 fn git(arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git")
-        .arg("-C")
-        .arg(env!("CARGO_MANIFEST_DIR"))
-        .args(arguments)
-        .output()
-        .ok()?;
+    output_of(
+        Command::new("git")
+            .arg("-C")
+            .arg(env!("CARGO_MANIFEST_DIR"))
+            .args(arguments),
+    )
+}
+
+/// What a command prints, if it is there and succeeds.
+fn output_of(command: &mut Command) -> Option<String> {
+    let output = command.output().ok()?;
     output
         .status
         .success()
@@ -83,16 +88,7 @@ fn cpu() -> String {
         let line = text.lines().find(|line| line.starts_with("model name"))?;
         Some(line.split_once(':')?.1.trim().to_owned())
     });
-    let from_sysctl = || {
-        let output = Command::new("sysctl")
-            .args(["-n", "machdep.cpu.brand_string"])
-            .output()
-            .ok()?;
-        output
-            .status
-            .success()
-            .then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
-    };
+    let from_sysctl = || output_of(Command::new("sysctl").args(["-n", "machdep.cpu.brand_string"]));
     from_proc
         .or_else(from_sysctl)
         .unwrap_or_else(|| std::env::consts::ARCH.into())

@@ -33,8 +33,8 @@
 //!   a vertex on the boundary itself, which Lemmas 6.3 and 6.4 exclude without saying so.
 //! * The triangulation is constrained: the paper does not prove that every boundary piece is a Delaunay edge. Those that
 //!   are not are counted in [`Mesh::forced_pieces`].
-//!   They need no acute angle: two middle pieces of up to 1.5 radii on an inner segment can have vertices on both sides
-//!   inside their circles.
+//!   They need no acute angle: a middle piece on an inner segment can be 1.5 radii long, and vertices √7/4 radii above and
+//!   below its middle lie in its diametral circle.
 //! * Input angles under 90°, which the paper excludes, are bitten like any other: a point of one segment that a circle of
 //!   another covers already gets no circle of its own.
 //!
