@@ -4,7 +4,7 @@
 use biting::domain::{Domain, Fill, Pslg, gallery};
 use biting::geometry::DVec2;
 use biting::mesh::Mesh;
-use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace};
+use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace, parameter_value};
 use biting::quality::{Bounds, judge};
 use biting::spacing::{self, Options, Prepared};
 use rand::SeedableRng;
@@ -71,7 +71,7 @@ fn certified(entry: &Entry, pslg: &Pslg, spec: &str, what: &str) -> Option<Mesh>
         lfs_cap: prepared.lfs_cap,
         integral: None,
         integral_error: 0.0,
-        guaranteed: entry.guarantees,
+        guaranteed: &entry.guaranteed(&Parameters::new()),
     };
     let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
     let broken: Vec<_> = certificate
@@ -235,9 +235,7 @@ fn a_budget_ends_in_an_error_that_says_where() {
 fn parameters_are_as_listed() {
     for entry in MESHERS {
         for parameter in entry.parameters {
-            let of = |value: &str| {
-                Parameters::from_iter([(parameter.name.to_owned(), serde_json::Value::String(value.to_owned()))])
-            };
+            let of = |value: &str| Parameters::from_iter([(parameter.name.to_owned(), parameter_value(value))]);
             assert!(
                 (entry.make)(&of(parameter.default)).is_ok(),
                 "{} {}",

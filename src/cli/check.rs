@@ -2,12 +2,13 @@
 
 use super::exit::{Failure, Outcome};
 use super::output::{say, say_notes, verdict};
-use super::values::positive;
+use super::values::{parameter, positive};
 use crate::experiment::prepare::Store;
 use crate::experiment::record::Cell;
 use crate::mesh::files;
-use crate::meshers;
+use crate::meshers::{self, Parameters};
 use crate::quality::{self, Check};
+use serde_json::Value;
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -28,6 +29,9 @@ pub struct Arguments {
     /// The method that made the mesh, if it is one of ours: then its guarantees must hold, not only the structure
     #[arg(long, requires = "spacing")]
     mesher: Option<String>,
+    /// A parameter the mesher had, name=value; may be repeated
+    #[arg(long, value_name = "NAME=VALUE", value_parser = parameter, requires = "mesher")]
+    param: Vec<(String, Value)>,
     /// Mend what can be mended in a domain file, and say what was changed
     #[arg(long)]
     repair: bool,
@@ -41,9 +45,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mesh = files::read(&arguments.mesh).map_err(Failure::input)?;
     let guarantees = match &arguments.mesher {
         Some(name) => meshers::find(name)
-            .map(|entry| entry.guarantees)
+            .map(|entry| entry.guaranteed(&arguments.params()))
             .ok_or_else(|| Failure::Input(format!("there is no mesher `{name}`; `biting list` shows them")))?,
-        None => &[],
+        None => Vec::new(),
     };
     let domain = store.domain(&arguments.domain).map_err(Failure::input)?;
     say_notes(&store, &domain);
@@ -51,7 +55,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (Some(spacing), Some(t), Some(c_b)) => {
             let cell = arguments.cell(spacing, t, c_b);
             let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
-            quality::judge(&domain, &mesh, Some(&prepared.bounds(c_b, guarantees)))
+            quality::judge(&domain, &mesh, Some(&prepared.bounds(c_b, &guarantees)))
         }
         _ => quality::judge(&domain, &mesh, None),
     };
@@ -66,11 +70,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
+    fn params(&self) -> Parameters {
+        self.param.iter().cloned().collect()
+    }
+
     fn cell(&self, spacing: &str, t: f64, c_b: f64) -> Cell {
         Cell {
             domain: self.domain.clone(),
             mesher: self.mesher.clone().unwrap_or_default(),
-            params: serde_json::Map::new(),
+            params: self.params(),
             spacing: spacing.into(),
             t,
             c_b,

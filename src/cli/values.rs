@@ -1,6 +1,7 @@
 //! How values are written on the command line.
 
 use crate::experiment::plan::fraction;
+use crate::meshers::parameter_value;
 use serde_json::Value;
 
 /// A positive number, also as a fraction: `0.25`, `1/3`.
@@ -33,8 +34,7 @@ pub fn parameter(text: &str) -> Result<(String, Value), String> {
     let (name, value) = text
         .split_once('=')
         .ok_or("write it as name=value; `biting list` shows the parameters")?;
-    let parsed = serde_json::from_str(value).unwrap_or_else(|_| Value::String(value.into()));
-    Ok((name.trim().into(), parsed))
+    Ok((name.trim().into(), parameter_value(value)))
 }
 
 #[cfg(test)]

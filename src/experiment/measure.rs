@@ -52,7 +52,8 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
     let triangles = run.mesh.triangles.len() as f64;
     let integral = prepared.integral.value;
     let size_ratio = triangles / integral;
-    let bounds = prepared.bounds(c_b, entry.guarantees);
+    let guaranteed = entry.guaranteed(&cell.params);
+    let bounds = prepared.bounds(c_b, &guaranteed);
     let (statistics, certificate) = quality::judge(&site.domain, &run.mesh, Some(&bounds));
     Report {
         domain: site.domain.name().into(),
@@ -91,19 +92,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
 
 /// All parameters of a cell's mesher: those it names, and the defaults of the rest.
 pub fn complete(cell: &Cell) -> Map<String, Value> {
-    let parameters = meshers::find(&cell.mesher).map_or(&[][..], |entry| entry.parameters);
-    let mut all: Map<String, Value> = parameters
-        .iter()
-        .map(|parameter| {
-            let default = serde_json::from_str(parameter.default);
-            (
-                parameter.name.to_owned(),
-                default.unwrap_or_else(|_| Value::from(parameter.default)),
-            )
-        })
-        .collect();
-    all.extend(cell.params.clone());
-    all
+    meshers::find(&cell.mesher).map_or_else(|| cell.params.clone(), |entry| entry.complete(&cell.params))
 }
 
 /// A hash of the mesh's points and triangles, bit by bit, in hexadecimal: FNV-1a of 64 bits over their words. Equal

@@ -37,6 +37,8 @@ pub struct Mesh {
     pub input_vertices: usize,
     /// Pieces that are no Delaunay edges and stand only because they were forced.
     pub forced_pieces: usize,
+    /// Triangles by which one front met another, as indices, ascending; empty for methods without a front of elements.
+    pub seams: Vec<u32>,
 }
 
 impl Mesh {

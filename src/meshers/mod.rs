@@ -26,11 +26,66 @@ pub struct Entry {
     pub summary: &'static str,
     /// The mesher's own parameters.
     pub parameters: &'static [Parameter],
-    /// Claims of the certificate's paper checks that the method guarantees under their hypotheses; the structural
-    /// checks are guaranteed for all.
-    pub guarantees: &'static [&'static str],
+    /// Claims of the certificate that the method guarantees, the paper's under their hypotheses; the structural checks
+    /// but `constrained-delaunay` are guaranteed for all and not named.
+    pub guarantees: &'static [Guarantee],
     /// The mesher with the given parameters, the rest at their defaults; the error names the parameter.
     pub make: Make,
+}
+
+/// A claim of the certificate that a method guarantees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Guarantee {
+    /// Name of the check.
+    pub claim: &'static str,
+    /// The parameter and its value that it is guaranteed with; absent where it always is.
+    pub with: Option<(&'static str, &'static str)>,
+}
+
+impl Guarantee {
+    /// Whatever the parameters.
+    pub const fn always(claim: &'static str) -> Self {
+        Self { claim, with: None }
+    }
+
+    /// Only where `parameter` has this value, written as in [`Parameter::default`].
+    pub const fn with(claim: &'static str, parameter: &'static str, value: &'static str) -> Self {
+        Self {
+            claim,
+            with: Some((parameter, value)),
+        }
+    }
+}
+
+impl Entry {
+    /// All parameters: those given, and the defaults of the rest.
+    pub fn complete(&self, given: &Parameters) -> Parameters {
+        let defaults = self.parameters.iter();
+        let mut all: Parameters = defaults
+            .map(|parameter| (parameter.name.to_owned(), parameter_value(parameter.default)))
+            .collect();
+        all.extend(given.clone());
+        all
+    }
+
+    /// The claims guaranteed with the parameters given.
+    pub fn guaranteed(&self, given: &Parameters) -> Vec<&'static str> {
+        let all = self.complete(given);
+        let holds = |guarantee: &&Guarantee| match guarantee.with {
+            Some((name, value)) => all.get(name) == Some(&parameter_value(value)),
+            None => true,
+        };
+        self.guarantees
+            .iter()
+            .filter(holds)
+            .map(|guarantee| guarantee.claim)
+            .collect()
+    }
+}
+
+/// A parameter's value as it is written on a command line: as JSON where it is some, else as text.
+pub fn parameter_value(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap_or_else(|_| text.into())
 }
 
 /// A parameter of a mesher, as `--param name=value` sets it.

@@ -3,7 +3,7 @@
 //! [`Statistics`] are numbers; a [`Certificate`] is a list of checks, each with worst value, bound and witness. What a
 //! mesher says of its own (pieces, input vertices) is not used: the boundary is found by coordinates.
 //!
-//! # Structural checks, guaranteed for every mesher
+//! # Structural checks, guaranteed for every mesher but the last, which is for those that claim it
 //! | claim | says | worst |
 //! |---|---|---|
 //! | `positive-orientation` | every triangle is counter-clockwise, exactly | smallest signed area |
@@ -121,6 +121,41 @@ pub struct Statistics {
     pub edge_over_size: Option<Percentiles>,
     /// Distance to the nearest mesh vertex over f, at mesh vertices; absent without a spacing.
     pub nn_over_f: Option<Range>,
+    /// Angles where one front met another ([`Mesh::seams`]) and elsewhere; absent where none did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seams: Option<Seams>,
+}
+
+/// Angles where one front met another, and elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Seams {
+    /// Where fronts met.
+    pub met: Angles,
+    /// All other triangles.
+    pub elsewhere: Angles,
+}
+
+/// Smallest angles of some triangles, those that touch an input angle under 60° left out.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Angles {
+    /// How many triangles.
+    pub triangles: usize,
+    /// The smallest, degrees; 0 where there are none, as for the other fields.
+    pub min_deg: f64,
+    /// Mean over triangles of the smallest angle, degrees.
+    pub mean_deg: f64,
+    /// 5th percentile over triangles of the smallest angle, degrees.
+    pub p05_deg: f64,
+    /// Share of triangles with a smallest angle under 30°.
+    pub share_under_30: f64,
+}
+
+impl Statistics {
+    /// Share of triangles whose smallest angle is under a whole number of degrees.
+    pub fn share_under(&self, degrees: usize) -> f64 {
+        let under: u64 = self.min_angle_histogram.iter().take(degrees).sum();
+        under as f64 / self.triangles.max(1) as f64
+    }
 }
 
 /// A check of the certificate, as data.

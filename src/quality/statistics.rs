@@ -1,7 +1,7 @@
 //! The numbers that make meshers comparable.
 
 use super::subject::Subject;
-use super::{Percentiles, Range, Statistics, parallel, shape};
+use super::{Angles, Percentiles, Range, Seams, Statistics, parallel, shape};
 
 /// Bins of the histogram, one a degree: a smallest angle is at most 60°.
 const BINS: usize = 60;
@@ -21,6 +21,7 @@ pub fn measure(subject: &Subject) -> Statistics {
         min_angle_histogram[(*angle as usize).min(BINS - 1)] += 1;
     }
     let free = (0..triangles).filter(|t| !subject.is_excused(*t)).map(|t| smallest[t]);
+    let seams = seams(subject, &smallest);
     let largest = |k: usize| shapes.iter().map(|shape| shape[k]).fold(0.0, f64::max);
     Statistics {
         vertices: mesh.points.len(),
@@ -35,6 +36,34 @@ pub fn measure(subject: &Subject) -> Statistics {
         p05_min_angle_deg: percentile(&mut smallest, 0.05).unwrap_or(0.0),
         edge_over_size: edge_over_size(subject),
         nn_over_f: nn_over_f(subject),
+        seams,
+    }
+}
+
+/// Angles where fronts met and elsewhere, given the smallest angle of each triangle.
+fn seams(subject: &Subject, smallest: &[f64]) -> Option<Seams> {
+    let mut is_met = vec![false; smallest.len()];
+    for &t in &subject.mesh.seams {
+        is_met[t as usize] = true;
+    }
+    let of = |met: bool| {
+        let wanted = (0..smallest.len()).filter(|t| is_met[*t] == met && !subject.is_excused(*t));
+        angles(wanted.map(|t| smallest[t]).collect())
+    };
+    (!subject.mesh.seams.is_empty()).then(|| Seams {
+        met: of(true),
+        elsewhere: of(false),
+    })
+}
+
+fn angles(mut smallest: Vec<f64>) -> Angles {
+    let count = smallest.len().max(1) as f64;
+    Angles {
+        triangles: smallest.len(),
+        min_deg: smallest.iter().copied().reduce(f64::min).unwrap_or(0.0),
+        mean_deg: smallest.iter().sum::<f64>() / count,
+        share_under_30: smallest.iter().filter(|angle| **angle < 30.0).count() as f64 / count,
+        p05_deg: percentile(&mut smallest, 0.05).unwrap_or(0.0),
     }
 }
 

@@ -44,6 +44,13 @@ const CLAIMS: [&str; 10] = [
     "vertices-upper",
 ];
 
+/// The paper's and the one structural claim that not all methods make.
+const GUARANTEED: [&str; 11] = {
+    let mut all = ["constrained-delaunay"; 11];
+    all.split_at_mut(1).1.copy_from_slice(&CLAIMS);
+    all
+};
+
 /// Everything guaranteed, c_b as given.
 fn bounds(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
     Bounds {
@@ -52,7 +59,7 @@ fn bounds(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
         lfs_cap: true,
         integral: Some(1.0),
         integral_error: 0.0,
-        guaranteed: &CLAIMS,
+        guaranteed: &GUARANTEED,
     }
 }
 
@@ -288,6 +295,35 @@ fn checks_apply_only_under_their_hypotheses() {
     };
     let (_, certificate) = judge(&square, &good, Some(&none));
     assert!(certificate.holds && !certificate.check("coverage").unwrap().holds);
+}
+
+#[test]
+fn a_mesh_need_not_be_delaunay_where_nobody_claims_it() {
+    let kite = [p(0.0, 0.0), p(2.0, -1.0), p(4.0, 0.0), p(2.0, 1.0)];
+    let (domain, long) = (domain(&kite, &[]), mesh(&kite, &[[0, 1, 2], [0, 2, 3]]));
+    let (_, certificate) = judge(&domain, &long, None);
+    assert!(certificate.holds && !certificate.check("constrained-delaunay").unwrap().holds);
+    let (_, certificate) = judge(&domain, &long, Some(&bounds(&UNIFORM, 0.5)));
+    assert!(!certificate.holds);
+}
+
+#[test]
+fn angles_where_fronts_met_are_told_apart() {
+    // Quarters of the square, the upper one cut into two of 45°, 22.5°, 112.5° and 45°, 67.5°, 67.5°.
+    let points = [SQUARE.as_slice(), &[p(0.5, 0.5), p(0.5f64.sqrt(), 1.0)]].concat();
+    let triangles = [[0, 1, 4], [1, 2, 4], [2, 5, 4], [5, 3, 4], [3, 0, 4]];
+    let square = domain(&SQUARE, &[]);
+    let met = Mesh {
+        seams: vec![2, 3],
+        ..mesh(&points, &triangles)
+    };
+    let (statistics, _) = judge(&square, &met, None);
+    let seams = statistics.seams.unwrap();
+    assert_eq!((seams.met.triangles, seams.elsewhere.triangles), (2, 3));
+    assert!((seams.elsewhere.min_deg - 45.0).abs() < 1e-9 && (seams.elsewhere.mean_deg - 45.0).abs() < 1e-9);
+    assert!(seams.met.min_deg < 30.0 && seams.met.share_under_30 == 0.5 && seams.elsewhere.share_under_30 == 0.0);
+    assert_eq!(statistics.share_under(30), 0.2);
+    assert_eq!(judge(&square, &Mesh { seams: vec![], ..met }, None).0.seams, None);
 }
 
 #[test]

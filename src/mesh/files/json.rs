@@ -16,6 +16,8 @@ struct Stored {
     piece_markers: Vec<i32>,
     input_vertices: usize,
     forced_pieces: usize,
+    #[serde(default)]
+    seams: Vec<u32>,
 }
 
 /// One object on one line.
@@ -33,6 +35,7 @@ pub fn text(mesh: &Mesh) -> String {
         piece_markers: mesh.piece_markers.clone(),
         input_vertices: mesh.input_vertices,
         forced_pieces: mesh.forced_pieces,
+        seams: mesh.seams.clone(),
     };
     // Lists of numbers have no way to fail.
     let mut text = serde_json::to_string(&stored).unwrap_or_default();
@@ -77,6 +80,10 @@ pub fn parse(text: &str) -> Result<Mesh, Complaint> {
             !stored.pieces.iter().any(|[a, b, _]| beyond(&[*a, *b])),
             "a piece names a vertex that does not exist",
         ),
+        (
+            stored.seams.iter().all(|t| (*t as usize) < stored.triangles.len()),
+            "seams name a triangle that does not exist",
+        ),
     ];
     if let Some((_, message)) = fits.iter().find(|(fine, _)| !fine) {
         return Err(Complaint {
@@ -97,5 +104,6 @@ pub fn parse(text: &str) -> Result<Mesh, Complaint> {
         piece_markers: stored.piece_markers,
         input_vertices: stored.input_vertices,
         forced_pieces: stored.forced_pieces,
+        seams: stored.seams,
     })
 }

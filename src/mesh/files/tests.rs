@@ -23,6 +23,7 @@ fn sample() -> Mesh {
         piece_markers: vec![5, 5],
         input_vertices: 3,
         forced_pieces: 1,
+        seams: vec![1],
     }
 }
 
@@ -45,6 +46,7 @@ fn node_and_vtu_keep_markers_and_regions() {
         piece_markers: vec![],
         input_vertices: 0,
         forced_pieces: 0,
+        seams: vec![],
         ..sample()
     };
     assert_eq!(round_trip("m.node"), bare);

@@ -53,7 +53,7 @@ mod tests;
 
 pub use order::Order;
 
-use super::{Entry, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
+use super::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
@@ -79,16 +79,17 @@ pub(super) const ENTRY: Entry = Entry {
         help: "which front vertex is bitten next (open in §5.1; the default is what the sweep found best)",
     }],
     guarantees: &[
-        "packing-disjoint",
-        "coverage",
-        "boundary-height",
-        "min-angle",
-        "nn-vertex-lower",
-        "nn-vertex-upper",
-        "nn-point-lower",
-        "nn-point-upper",
-        "vertices-lower",
-        "vertices-upper",
+        Guarantee::always("constrained-delaunay"),
+        Guarantee::always("packing-disjoint"),
+        Guarantee::always("coverage"),
+        Guarantee::always("boundary-height"),
+        Guarantee::always("min-angle"),
+        Guarantee::always("nn-vertex-lower"),
+        Guarantee::always("nn-vertex-upper"),
+        Guarantee::always("nn-point-lower"),
+        Guarantee::always("nn-point-upper"),
+        Guarantee::always("vertices-lower"),
+        Guarantee::always("vertices-upper"),
     ],
     make: from_parameters::<Biting>,
 };
