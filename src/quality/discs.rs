@@ -120,20 +120,45 @@ impl DiscTree {
     /// Distance from `x` to the second closest centre; infinite where there are fewer than two.
     pub fn second_nearest(&self, x: DVec2) -> f64 {
         let (mut first, mut second) = (f64::INFINITY, f64::INFINITY);
-        let away = |bounds: Rect| (bounds.min - x).max(x - bounds.max).max(DVec2::ZERO).length_squared();
-        let mut stack = [(0u32, 0.0); DEPTH];
+        let lower = |node: &Node| away_squared(node.bounds, x);
+        self.nearest_first(lower, |disc| {
+            let distance = disc.centre.distance_squared(x);
+            if distance < first {
+                (first, second) = (distance, first);
+            } else if distance < second {
+                second = distance;
+            }
+            second
+        });
+        second.sqrt()
+    }
+
+    /// The least distance from `x` to a centre less `share` of the disc's radius; infinite where there are no discs.
+    pub fn nearest_rim(&self, x: DVec2, share: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        let lower = |node: &Node| away_squared(node.bounds, x).sqrt() - share * node.radius;
+        self.nearest_first(lower, |disc| {
+            least = least.min(disc.centre.distance(x) - share * disc.radius);
+            least
+        });
+        least
+    }
+
+    /// Shows discs to `look`, by boxes of small `lower` bounds first, but for boxes whose lower bound is not under the
+    /// limit that `look` returned last.
+    fn nearest_first(&self, lower: impl Fn(&Node) -> f64, mut look: impl FnMut(&Disc) -> f64) {
+        let mut limit = f64::INFINITY;
+        let mut stack = [(0u32, f64::NEG_INFINITY); DEPTH];
         let mut height = usize::from(!self.nodes.is_empty());
         while height > 0 {
             height -= 1;
-            let (index, distance) = stack[height];
-            if distance >= second {
+            let (index, bound) = stack[height];
+            if bound >= limit {
                 continue;
             }
             let node = &self.nodes[index as usize];
             if node.second != 0 {
-                let (one, other) = (index + 1, node.second);
-                let one = (one, away(self.nodes[one as usize].bounds));
-                let other = (other, away(self.nodes[other as usize].bounds));
+                let [one, other] = [index + 1, node.second].map(|k| (k, lower(&self.nodes[k as usize])));
                 let (near, far) = if other.1 < one.1 { (other, one) } else { (one, other) };
                 stack[height] = far;
                 stack[height + 1] = near;
@@ -141,16 +166,15 @@ impl DiscTree {
                 continue;
             }
             for disc in &self.discs[node.range[0] as usize..node.range[1] as usize] {
-                let distance = disc.centre.distance_squared(x);
-                if distance < first {
-                    (first, second) = (distance, first);
-                } else if distance < second {
-                    second = distance;
-                }
+                limit = look(disc);
             }
         }
-        second.sqrt()
     }
+}
+
+/// The square of the distance from `x` to a box, 0 inside.
+fn away_squared(bounds: Rect, x: DVec2) -> f64 {
+    (bounds.min - x).max(x - bounds.max).max(DVec2::ZERO).length_squared()
 }
 
 #[cfg(test)]
@@ -180,6 +204,9 @@ mod tests {
             let expected = distances.get(1).copied().unwrap_or(f64::INFINITY);
             let found = tree.second_nearest(x);
             prop_assert!(found == expected || (found - expected).abs() < 1e-15, "{found} {expected}");
+            let rims = discs.iter().map(|(centre, disc)| centre.distance(x) - 0.5 * disc);
+            let expected = rims.fold(f64::INFINITY, f64::min);
+            prop_assert_eq!(tree.nearest_rim(x, 0.5), expected);
         }
     }
 }

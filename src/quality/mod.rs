@@ -55,6 +55,7 @@ mod angle;
 mod boundary;
 mod coverage;
 mod discs;
+mod gaps;
 mod parallel;
 mod protection;
 mod shape;
@@ -121,6 +122,11 @@ pub struct Statistics {
     pub edge_over_size: Option<Percentiles>,
     /// Distance to the nearest mesh vertex over f, at mesh vertices; absent without a spacing.
     pub nn_over_f: Option<Range>,
+    /// The β of Definition 4.1 that the vertices reach as centres of packing circles of radius c_p f, c_p = c_b / (2 + t): no
+    /// point q of the domain has a larger gap to them than β c_p f(q). A lower estimate, see `gaps.rs`; absent without
+    /// a spacing.
+    #[serde(default)]
+    pub beta: Option<f64>,
     /// Angles where one front met another ([`Mesh::seams`]) and elsewhere; absent where none did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seams: Option<Seams>,

@@ -3,7 +3,7 @@
 use super::boundary::NO_SEGMENT;
 use super::subject::{Sizes, Subject};
 use super::tally::{Tally, Worst};
-use super::{Check, parallel, shape};
+use super::{Check, parallel};
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::CERTIFICATE;
 use std::f64::consts::{PI, TAU};
@@ -28,14 +28,9 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> Vec<Check> {
     let at_midpoints = point.measure(subject.adjacency.edges().len(), |e| {
         nn(subject.midpoint(e), sizes.at_midpoint[e])
     });
-    let at_circumcentres = point.measure(subject.mesh.triangles.len(), |triangle| {
-        let centre = shape::circumcentre(subject.mesh.corners(triangle));
-        let is_in = centre.is_finite() && subject.domain.contains(centre);
-        if is_in {
-            nn(centre, sizes.bounds.spacing.at(centre))
-        } else {
-            None
-        }
+    let at_circumcentres = point.measure(sizes.circumcentres.len(), |triangle| {
+        let (centre, f) = sizes.circumcentres[triangle]?;
+        nn(centre, f)
     });
     let [low, high] = at_midpoints;
     let [low_too, high_too] = at_circumcentres;

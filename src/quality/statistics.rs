@@ -1,7 +1,7 @@
 //! The numbers that make meshers comparable.
 
 use super::subject::Subject;
-use super::{Angles, Percentiles, Range, Seams, Statistics, parallel, shape};
+use super::{Angles, Percentiles, Range, Seams, Statistics, gaps, parallel, shape};
 
 /// Bins of the histogram, one a degree: a smallest angle is at most 60°.
 const BINS: usize = 60;
@@ -36,6 +36,7 @@ pub fn measure(subject: &Subject) -> Statistics {
         p05_min_angle_deg: percentile(&mut smallest, 0.05).unwrap_or(0.0),
         edge_over_size: edge_over_size(subject),
         nn_over_f: nn_over_f(subject),
+        beta: gaps::beta(subject),
         seams,
     }
 }

@@ -3,7 +3,7 @@
 use super::boundary::Boundary;
 use super::discs::DiscTree;
 use super::protection::Heights;
-use super::{Bounds, Hypotheses, parallel};
+use super::{Bounds, Hypotheses, parallel, shape};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::CERTIFICATE;
@@ -31,6 +31,8 @@ pub struct Sizes<'a> {
     pub at_vertex: Vec<f64>,
     /// f at the midpoint of each edge.
     pub at_midpoint: Vec<f64>,
+    /// Each triangle's circumcentre with f there, where it lies in the domain.
+    pub circumcentres: Vec<Option<(DVec2, f64)>>,
     /// The biting circles, enlarged by [`CERTIFICATE`].
     pub circles: DiscTree,
     /// Distance from each mesh vertex to the nearest other one.
@@ -88,6 +90,10 @@ impl<'a> Sizes<'a> {
         let at = |x: DVec2| bounds.spacing.at(x);
         let at_vertex = parallel::map(mesh.points.len(), |k| at(mesh.points[k]));
         let at_midpoint = parallel::map(adjacency.edges().len(), |e| at(midpoint(mesh, adjacency, e)));
+        let circumcentres = parallel::map(mesh.triangles.len(), |triangle| {
+            let centre = shape::circumcentre(mesh.corners(triangle));
+            (centre.is_finite() && domain.contains(centre)).then(|| (centre, at(centre)))
+        });
         let radius = |f: &f64| bounds.c_b * f * (1.0 + CERTIFICATE);
         let circles = DiscTree::new(mesh.points.iter().copied().zip(at_vertex.iter().map(radius)));
         let nn = parallel::map(mesh.points.len(), |k| circles.second_nearest(mesh.points[k]));
@@ -97,6 +103,7 @@ impl<'a> Sizes<'a> {
             hypotheses: Hypotheses::of(domain, &bounds, heights.low_head_on),
             at_vertex,
             at_midpoint,
+            circumcentres,
             circles,
             nn,
             heights,

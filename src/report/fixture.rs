@@ -133,6 +133,7 @@ fn statistics(triangles: usize, smallest: f64) -> Statistics {
         min_angle_histogram: histogram.collect(),
         edge_over_size: None,
         nn_over_f: None,
+        beta: Some(1.0 + 0.02 * (smallest - 20.0).abs()),
         seams: None,
     }
 }
