@@ -122,7 +122,7 @@ pub fn triangulate(domain: &Domain, points: Vec<DVec2>, pieces: Vec<Piece>) -> R
         ..Mesh::default()
     };
     collect_triangles(&cdt, domain, &labels, &mut mesh);
-    mesh.point_markers = point_markers(domain, &mesh);
+    mesh.mark_points(domain.vertex_markers());
     every_point_used(&mesh)?;
     Ok(mesh)
 }
@@ -344,19 +344,6 @@ fn collect_triangles(cdt: &Cdt, domain: &Domain, labels: &[u32], mesh: &mut Mesh
             mesh.regions.push(inside.region);
         }
     }
-}
-
-/// Input vertices keep their marker, points on a segment take the segment's, all others 0.
-fn point_markers(domain: &Domain, mesh: &Mesh) -> Vec<i32> {
-    let mut markers = vec![0; mesh.points.len()];
-    for (piece, marker) in mesh.pieces.iter().zip(&mesh.piece_markers) {
-        markers[piece.a as usize] = *marker;
-        markers[piece.b as usize] = *marker;
-    }
-    for (marker, input) in markers.iter_mut().zip(domain.vertex_markers()) {
-        *marker = *input;
-    }
-    markers
 }
 
 fn every_point_used(mesh: &Mesh) -> Result<(), TriangulationError> {

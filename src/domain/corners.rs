@@ -1,8 +1,8 @@
 //! Angles between neighbouring segments at every vertex: the input angles the paper's hypothesis is about (§5.1).
 
 use super::{Domain, Face, Segment};
-use crate::geometry::DVec2;
 use crate::geometry::tolerance::{ACUTE_MARGIN, NO_ANGLE};
+use crate::geometry::{DVec2, turn};
 use std::f64::consts::{FRAC_PI_3, TAU};
 
 /// The part of a vertex' neighbourhood between two angularly neighbouring segments.
@@ -90,12 +90,6 @@ impl Corners {
             }
         }
     }
-}
-
-/// Counter-clockwise angle from `u` to `v` in (0, 2π].
-fn turn(u: DVec2, v: DVec2) -> f64 {
-    let angle = u.perp_dot(v).atan2(u.dot(v));
-    if angle > 0.0 { angle } else { angle + TAU }
 }
 
 impl Domain {

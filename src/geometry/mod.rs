@@ -4,10 +4,21 @@
 
 pub mod near;
 pub mod predicates;
+pub mod segment_grid;
 pub mod segments;
 pub mod tolerance;
 
 pub use glam::DVec2;
+
+/// Counter-clockwise angle from `u` to `v` in (0, 2π], rounded: for measuring, not for deciding signs.
+pub fn turn(u: DVec2, v: DVec2) -> f64 {
+    let angle = u.perp_dot(v).atan2(u.dot(v));
+    if angle > 0.0 {
+        angle
+    } else {
+        angle + std::f64::consts::TAU
+    }
+}
 
 /// An axis-aligned box, closed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -48,16 +48,16 @@ pub struct DiscGrid {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct BlockKey {
-    level: i32,
-    column: i64,
-    row: i64,
+pub(super) struct BlockKey {
+    pub level: i32,
+    pub column: i64,
+    pub row: i64,
 }
 
 const NONE: u32 = u32::MAX;
-const BLOCK_SHIFT: i64 = 3;
-const BLOCK_SIDE: i64 = 1 << BLOCK_SHIFT;
-const BLOCK_CELLS: usize = (BLOCK_SIDE * BLOCK_SIDE) as usize;
+pub(super) const BLOCK_SHIFT: i64 = 3;
+pub(super) const BLOCK_SIDE: i64 = 1 << BLOCK_SHIFT;
+pub(super) const BLOCK_CELLS: usize = (BLOCK_SIDE * BLOCK_SIDE) as usize;
 /// Smallest binary exponent of a normal number.
 const LOWEST_LEVEL: i32 = -1022;
 /// Radii are evaluated in floating point: room so that rounding cannot hide a neighbour.
@@ -193,20 +193,20 @@ impl DiscGrid {
 }
 
 /// The binary exponent of a positive normal number: 2^level ≤ radius < 2^(level + 1).
-fn level_of(radius: f64) -> i32 {
+pub(super) fn level_of(radius: f64) -> i32 {
     ((radius.to_bits() >> 52) as i32 & 0x7ff) - 1023
 }
 
 /// One over the cell size of a level, 2^(level + 1): above every radius of the level.
-fn inverse_cell_size(level: i32) -> f64 {
+pub(super) fn inverse_cell_size(level: i32) -> f64 {
     f64::from_bits(((1023 - (level as i64 + 1)) as u64) << 52)
 }
 
-fn cell_of(coordinate: f64, inverse: f64) -> i64 {
+pub(super) fn cell_of(coordinate: f64, inverse: f64) -> i64 {
     (coordinate * inverse).floor() as i64
 }
 
-fn cell_in_block(column: i64, row: i64) -> usize {
+pub(super) fn cell_in_block(column: i64, row: i64) -> usize {
     (((row & (BLOCK_SIDE - 1)) << BLOCK_SHIFT) | (column & (BLOCK_SIDE - 1))) as usize
 }
 

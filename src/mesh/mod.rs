@@ -47,6 +47,18 @@ impl Mesh {
         self.triangles[t].map(|k| self.points[k as usize])
     }
 
+    /// Sets `point_markers`: input vertices get theirs, points on a segment the segment's, all others 0.
+    pub fn mark_points(&mut self, input: &[i32]) {
+        self.point_markers = vec![0; self.points.len()];
+        for (piece, marker) in self.pieces.iter().zip(&self.piece_markers) {
+            self.point_markers[piece.a as usize] = *marker;
+            self.point_markers[piece.b as usize] = *marker;
+        }
+        for (marker, input) in self.point_markers.iter_mut().zip(input) {
+            *marker = *input;
+        }
+    }
+
     /// Edges with the triangles on their sides.
     pub fn adjacency(&self) -> Adjacency {
         Adjacency::of(&self.triangles, self.points.len())

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 pub mod biting;
 mod budget;
+mod sizing;
 
 pub use budget::Budget;
 use budget::Monitor;

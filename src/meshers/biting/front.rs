@@ -15,6 +15,7 @@ use super::order::{Order, Queue, Ticket};
 use crate::domain::Domain;
 use crate::geometry::near::{Disc, DiscGrid, Near};
 use crate::geometry::{DVec2, tolerance};
+use crate::meshers::sizing::Sizing;
 use crate::meshers::{MeshError, Monitor, Request};
 use crate::spacing::Spacing;
 
@@ -62,9 +63,7 @@ const NONE: u32 = u32::MAX;
 /// All biting circles so far and the front they leave.
 pub(super) struct Front<'a> {
     pub domain: &'a Domain,
-    spacing: &'a dyn Spacing,
-    c_b: f64,
-    smallest_radius: f64,
+    radii: Sizing<'a>,
     /// The biting circles, in the order of bites.
     pub bitten: DiscGrid,
     /// How many of them are centred on the input boundary; they come first.
@@ -87,19 +86,16 @@ impl<'a> Front<'a> {
         order: Order,
         request: &Request,
     ) -> Result<Self, MeshError> {
-        let t = request.c_b * spacing.lipschitz();
+        let radii = Sizing::new(domain, spacing, request);
+        let t = radii.t();
         if t.is_nan() || t >= 1.0 {
             return Err(MeshError::Declined(format!(
                 "biting needs t = alpha c_b below 1, and here it is {t}; limit the spacing's gradient (--t)"
             )));
         }
-        let bounds = domain.bounds();
-        let largest_coordinate = bounds.min.abs().max(bounds.max.abs()).max_element();
         Ok(Self {
             domain,
-            spacing,
-            c_b: request.c_b,
-            smallest_radius: tolerance::RESOLUTION * largest_coordinate,
+            radii,
             bitten: DiscGrid::new(t),
             boundary_count: u32::MAX,
             first_vertex: Vec::new(),
@@ -114,19 +110,7 @@ impl<'a> Front<'a> {
 
     /// c_b f(x), refused where f breaks its promise or the coordinates cannot resolve it.
     pub fn radius_at(&self, x: DVec2) -> Result<f64, MeshError> {
-        let value = self.spacing.at(x);
-        let radius = self.c_b * value;
-        if !(value > 0.0 && radius.is_finite()) {
-            return Err(MeshError::Spacing { value, x: x.x, y: x.y });
-        }
-        if radius < self.smallest_radius {
-            return Err(MeshError::Declined(format!(
-                "the size {radius:e} at ({}, {}) is below what coordinates of this size resolve ({:e}); \
-                 move the domain to the origin or ask for a larger size there",
-                x.x, x.y, self.smallest_radius
-            )));
-        }
-        Ok(radius)
+        self.radii.at(x)
     }
 
     /// Bites at a point of the input boundary. The arcs follow in [`Front::open`], once the boundary is covered.
@@ -281,7 +265,7 @@ impl<'a> Front<'a> {
             .discs
             .iter()
             .for_each(|&disc| self.first_vertex[disc as usize] = index);
-        let (spacing, point) = (self.spacing, vertex.point);
+        let (spacing, point) = (self.radii.spacing, vertex.point);
         self.queue
             .push(Ticket { serial, slot: index }, vertex, || spacing.at(point));
         Ok(())
