@@ -135,6 +135,22 @@ fn every_mesher_on_every_small_domain() {
     }
 }
 
+/// Valid domains a method may decline, of a hundred.
+const MOST_DECLINED: usize = 1;
+
+#[test]
+fn random_domains_are_hardly_ever_declined() {
+    for entry in MESHERS {
+        let is_declined = |seed: &usize| {
+            let name = format!("random-simple:n=12,seed={seed}");
+            let pslg = gallery::pslg(&name).expect("a gallery name").expect("a gallery domain");
+            certified(entry, &pslg, "lfs", &name).is_none()
+        };
+        let declined: Vec<usize> = (1..=100).filter(is_declined).collect();
+        assert!(declined.len() <= MOST_DECLINED, "{} declines {declined:?}", entry.name);
+    }
+}
+
 #[test]
 fn scaled_from_a_millionth_to_a_million() {
     for entry in MESHERS {

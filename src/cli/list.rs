@@ -4,7 +4,7 @@ use super::exit::Outcome;
 use super::output::say;
 use crate::domain::gallery;
 use crate::experiment::plan::Plan;
-use crate::meshers::MESHERS;
+use crate::meshers::{Entry, Guarantee, MESHERS};
 use crate::spacing;
 use std::path::{Path, PathBuf};
 
@@ -35,8 +35,9 @@ pub fn run() -> Outcome {
                 "    --param {}={}  {}",
                 parameter.name, parameter.default, parameter.help
             ));
-            say(format_args!("      one of: {}", parameter.values));
+            say(format_args!("      values: {}", parameter.values));
         }
+        say(format_args!("    guarantees {}", guarantees(entry)));
     }
     say("\nSpacings");
     for kind in spacing::KINDS {
@@ -53,6 +54,17 @@ pub fn run() -> Outcome {
         }
     }
     Ok(())
+}
+
+/// The claims a method guarantees beyond the structural ones, with the parameters they need.
+fn guarantees(entry: &Entry) -> String {
+    let one = |guarantee: &Guarantee| match guarantee.with {
+        Some((name, value)) => format!("{} ({name}={value})", guarantee.claim),
+        None => guarantee.claim.to_owned(),
+    };
+    let structure = std::iter::once("structure".to_owned());
+    let all: Vec<String> = structure.chain(entry.guarantees.iter().map(one)).collect();
+    all.join(", ")
 }
 
 /// The experiment files of this checkout, by name.
