@@ -5,6 +5,12 @@
 //! constraints, and floods the faces from the pieces, whose segments know what lies on their left and right. The only
 //! arithmetic is in exact predicates, so a boundary point that rounding moved off its segment by an ulp leaves no hole
 //! and no sliver: the domain meshed is the one whose boundary is the pieces.
+//!
+//! [`Refinable`] starts from the same triangulation and takes points one at a time, for refinement.
+
+mod refinable;
+
+pub use refinable::{Around, Cavity, Location, Refinable, following};
 
 use crate::domain::{Domain, Face};
 use crate::geometry::{DVec2, predicates};
@@ -106,10 +112,7 @@ const UNKNOWN: u32 = u32::MAX;
 /// only if the Delaunay triangulation of the points alone (§5.1, step 6) has all pieces among its edges, up to the choice
 /// of diagonals among points on one circle.
 pub fn triangulate(domain: &Domain, points: Vec<DVec2>, pieces: Vec<Piece>) -> Result<Mesh, TriangulationError> {
-    check_indices(domain, &points, &pieces)?;
-    let (mut cdt, handles) = load(&points)?;
-    let edges = constrain(&mut cdt, &handles, &points, &pieces)?;
-    let labels = flood(&cdt, domain, &edges)?;
+    let Labelled { cdt, edges, labels } = labelled(domain, &points, &pieces)?;
     let mut mesh = Mesh {
         forced_pieces: edges.iter().filter(|(_, edge)| is_forced(&cdt, *edge)).count(),
         input_vertices: domain.vertices().len(),
@@ -125,6 +128,23 @@ pub fn triangulate(domain: &Domain, points: Vec<DVec2>, pieces: Vec<Piece>) -> R
     mesh.mark_points(domain.vertex_markers());
     every_point_used(&mesh)?;
     Ok(mesh)
+}
+
+/// The triangulation before carving.
+struct Labelled {
+    cdt: Cdt,
+    /// Each piece with its directed edge a → b, cut where it passed through a point.
+    edges: Vec<(Piece, FixedDirectedEdgeHandle)>,
+    /// The domain's face that each of spade's faces lies in.
+    labels: Vec<u32>,
+}
+
+fn labelled(domain: &Domain, points: &[DVec2], pieces: &[Piece]) -> Result<Labelled, TriangulationError> {
+    check_indices(domain, points, pieces)?;
+    let (mut cdt, handles) = load(points)?;
+    let edges = constrain(&mut cdt, &handles, points, pieces)?;
+    let labels = flood(&cdt, domain, &edges)?;
+    Ok(Labelled { cdt, edges, labels })
 }
 
 fn check_indices(domain: &Domain, points: &[DVec2], pieces: &[Piece]) -> Result<(), TriangulationError> {

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 pub mod biting;
 mod budget;
+pub mod delaunay_refinement;
 mod sizing;
 
 pub use budget::Budget;
@@ -102,7 +103,7 @@ pub struct Parameter {
 }
 
 /// Every mesher there is.
-pub static MESHERS: &[Entry] = &[biting::ENTRY];
+pub static MESHERS: &[Entry] = &[biting::ENTRY, delaunay_refinement::ENTRY];
 
 /// The mesher called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -24,6 +24,11 @@ impl<'a> Sizing<'a> {
         }
     }
 
+    /// The smallest s there may be: points closer than that cannot be told apart well enough.
+    pub fn smallest(&self) -> f64 {
+        self.smallest
+    }
+
     /// t = c_b · lipschitz(): s is t-Lipschitz.
     pub fn t(&self) -> f64 {
         self.c_b * self.spacing.lipschitz()

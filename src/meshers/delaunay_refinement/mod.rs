@@ -1,0 +1,191 @@
+//! Delaunay refinement: points where triangles are bad, until none is.
+//!
+//! # Idea
+//! Start from the constrained Delaunay triangulation of the input. A triangle that is skinny or too large is broken by a
+//! point at its circumcentre, far from all vertices since the circle holds none. A point that would come too near to a piece
+//! of the boundary is not inserted: the piece is split instead. No two vertices ever come much nearer than the input or the
+//! spacing asks for, so this ends, and what is left has no small angle.
+//!
+//! # Steps
+//! 1. [`Refinable::new`] triangulates the input vertices, its segments as pieces;
+//! 2. [`refiner::Refiner::split_encroached`] splits the pieces that a vertex encroaches upon;
+//! 3. [`refiner::Refiner::insert_circumcentres`] takes bad triangles, shortest edge first ([`queue`]), and inserts the
+//!    circumcentre or off-centre of each ([`triangles::NewPoint`]), or splits the pieces it encroaches upon, step 2 again;
+//! 4. [`Refinable::into_mesh`] carves outside and holes away. The triangulation is constrained Delaunay all along.
+//!
+//! # Guarantee
+//! Every triangle has the angle and the size asked for, but those counted: `left_at_acute_vertex` (the angle is the
+//! input's, or to mend it would shorten the pieces at an acute vertex for ever), `left_by_rounding` (coordinates do not
+//! resolve the point), `left_by_floor` (edges would become shorter than [`pieces::FLOOR`] of what input and sizes ask for;
+//! this is what ends the work at angles for which no proof does). In theory ends with nothing left: up to 20.7° for
+//! circumcentres, diametral circles and input angles of at least 90° (60° with shells, Shewchuk); up to 25.7° (28.6° where
+//! triangles are small beside the features) for lenses; to 33° or so in practice. Of the certificate:
+//! `constrained-delaunay`. The paper's bounds are measured only.
+//!
+//! # Cost
+//! O(1) a point in practice: a short walk, the cavity, and about six triangles tested; what s is at their corners mostly
+//! decides their size, so s is evaluated little more than once a point. Buckets keep the queue free of logarithms.
+//!
+//! # Deviations from the papers (and why)
+//! * Sizes: too large means by default an area over √3/4 s² at the centroid, as Triangle's users ask for ([`SizeRule`]).
+//! * Order: shortest edge first, as in Triangle 1.6, where Ruppert leaves it open; short edges breed shorter ones only where
+//!   longer ones have not been spoilt yet.
+//! * Lenses have Triangle's angle: a vertex encroaches where it sees a piece under more than 180° less twice the bound, which
+//!   is Chew's lens at 30°. As Chew does, splitting then removes the free vertices in the diametral circle that see the piece.
+//! * Small input angles: pieces at a vertex of an acute angle are split at a distance from it that is a power of two, so that
+//!   two of them end at one distance and do not encroach upon each other (Ruppert's shells, as Shewchuk has them). A piece at
+//!   such a vertex is not split for an angle's sake to below [`pieces::SHELL_FLOOR`] of what the features round the vertex ask
+//!   for. Miller, Pav and Walkington instead leave every skinny triangle whose shortest edge joins two segments at one
+//!   distance from their common vertex; that ends too, but leaves small angles well away from the vertex.
+//!
+//! # Reference
+//! J. Ruppert, "A Delaunay Refinement Algorithm for Quality 2-Dimensional Mesh Generation", 1995. L. P. Chew,
+//! "Guaranteed-Quality Mesh Generation for Curved Surfaces", 1993. J. R. Shewchuk, "Delaunay Refinement Algorithms for
+//! Triangular Mesh Generation", 2002. G. L. Miller, S. E. Pav, N. J. Walkington, "When and Why Delaunay Refinement
+//! Algorithms Work", 2005. A. Üngör, "Off-centers: A New Type of Steiner Points for Computing Size-Optimal
+//! Quality-Guaranteed Delaunay Triangulations", 2009.
+
+// The steps are private; their links work in `cargo doc --document-private-items`.
+#![allow(rustdoc::private_intra_doc_links)]
+
+mod pieces;
+mod queue;
+mod refiner;
+#[cfg(test)]
+mod tests;
+mod triangles;
+
+use super::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
+use crate::delaunay::Refinable;
+use crate::domain::Domain;
+use crate::mesh::Mesh;
+use crate::spacing::Spacing;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// Where a bad triangle is broken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Insertion {
+    /// At its circumcentre (Ruppert, Chew).
+    Circumcentre,
+    /// At its off-centre where that is nearer (Üngör): fewer points.
+    #[default]
+    OffCentre,
+}
+
+/// When a vertex is too near to a piece that it sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Encroachment {
+    /// Inside the circle that has the piece as diameter (Ruppert): the mesh is Delaunay, not only constrained Delaunay,
+    /// but for what is left at acute vertices.
+    DiametralCircle,
+    /// Inside the lens from which the piece is seen under at least 180° less twice the angle asked for (Chew's second):
+    /// fewer points.
+    #[default]
+    Lens,
+}
+
+/// What "too large for s" means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SizeRule {
+    /// Area over √3/4 s², s at the centroid: the equilateral triangle's.
+    #[default]
+    Area,
+    /// Longest edge over s, s at its middle. Pieces longer than s are split whatever is beside them.
+    Edge,
+    /// Circumradius over s / √3, s at the centroid: the equilateral triangle's.
+    Radius,
+    /// Sizes do not matter, angles only.
+    None,
+}
+
+/// The largest angle that may be asked for, degrees: in practice refinement ends up to here.
+pub const LARGEST_ANGLE: f64 = 34.0;
+
+/// Delaunay refinement and its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DelaunayRefinement {
+    /// Smallest angle asked for, degrees, at least 0 and at most [`LARGEST_ANGLE`]. The default is where Chew's second
+    /// algorithm is proved to end for sizes well below the features.
+    #[serde(deserialize_with = "angle_in_range")]
+    pub angle: f64,
+    /// Where a bad triangle is broken.
+    pub insertion: Insertion,
+    /// When a vertex is too near to a piece.
+    pub encroachment: Encroachment,
+    /// What "too large for s" means.
+    pub size_rule: SizeRule,
+}
+
+impl Default for DelaunayRefinement {
+    fn default() -> Self {
+        Self {
+            angle: 28.6,
+            insertion: Insertion::default(),
+            encroachment: Encroachment::default(),
+            size_rule: SizeRule::default(),
+        }
+    }
+}
+
+fn angle_in_range<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let angle = f64::deserialize(deserializer)?;
+    if (0.0..=LARGEST_ANGLE).contains(&angle) {
+        return Ok(angle);
+    }
+    let message = format!("angle is {angle}: it must be at least 0 and at most {LARGEST_ANGLE} degrees");
+    Err(serde::de::Error::custom(message))
+}
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "delaunay-refinement",
+    summary: "circumcentres or off-centres of bad triangles (Ruppert, Chew, Üngör)",
+    parameters: &[
+        Parameter {
+            name: "angle",
+            values: "degrees from 0 to 34",
+            default: "28.6",
+            help: "smallest angle away from acute vertices (proved: 20.7 Ruppert, 28.6 Chew for small sizes)",
+        },
+        Parameter {
+            name: "insertion",
+            values: "circumcentre, off-centre",
+            default: "off-centre",
+            help: "where a bad triangle is broken (Ruppert; Üngör: fewer points)",
+        },
+        Parameter {
+            name: "encroachment",
+            values: "diametral-circle, lens",
+            default: "lens",
+            help: "when a vertex is too near to a boundary piece (Ruppert; Chew's second: fewer points)",
+        },
+        Parameter {
+            name: "size_rule",
+            values: "area, edge, radius, none",
+            default: "area",
+            help: "what may not exceed that of the equilateral triangle with edge s; none: angles only",
+        },
+    ],
+    guarantees: &[Guarantee::always("constrained-delaunay")],
+    make: from_parameters::<DelaunayRefinement>,
+};
+
+impl Mesher for DelaunayRefinement {
+    fn mesh(
+        &self,
+        domain: &Domain,
+        spacing: &dyn Spacing,
+        request: &Request,
+        trace: &mut Trace,
+    ) -> Result<Mesh, MeshError> {
+        let start = trace.step("constrained_delaunay", || Refinable::new(domain))?;
+        let mut refiner = refiner::Refiner::new(self, start, domain, spacing, request)?;
+        trace.step("split_encroached", || refiner.split_encroached())?;
+        trace.step("insert_circumcentres", || refiner.insert_circumcentres())?;
+        refiner.count(trace);
+        Ok(trace.step("carve", || refiner.triangulation.into_mesh(domain)))
+    }
+}
