@@ -4,10 +4,11 @@ use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::legend::{Key, legend_row};
 use super::panel::{Axis, Panel};
 use super::style;
+use crate::experiment::contest::Contest;
 use crate::experiment::record::Report;
 use crate::experiment::series::OrderGroup;
 use crate::experiment::summary::{Grid, distinct, first_seen};
-use plotters::prelude::DrawingBackend;
+use plotters::prelude::{DrawingBackend, RGBColor};
 use std::path::Path;
 
 /// Draws, for each order of bites, how triangles spread over smallest angles: one panel an order, one line a spacing.
@@ -31,7 +32,7 @@ pub fn angles_by_order(groups: &[OrderGroup], stem: &Path) -> Result<(), ChartEr
             .into_iter()
             .map(|order| (order.to_string(), lines(order)))
             .collect(),
-        series: spacings.iter().map(|name| name.to_string()).collect(),
+        series: coloured(spacings.iter().map(|name| name.to_string())),
     };
     write_both(&figure, stem)
 }
@@ -55,9 +56,41 @@ pub fn angles_by_t(grids: &[(String, Grid)], stem: &Path) -> Result<(), ChartErr
     };
     let figure = Multiples {
         panels: ts.into_iter().map(panel).collect(),
-        series: grids.iter().map(|(name, _)| name.clone()).collect(),
+        series: coloured(grids.iter().map(|(name, _)| name.clone())),
     };
     write_both(&figure, stem)
+}
+
+/// Draws, for each spacing, how triangles spread over smallest angles, over the tasks that all of `methods` measured: one
+/// panel a spacing, one line a method.
+///
+/// # Errors
+/// [`ChartError`].
+pub fn angles_by_method(contest: &Contest, methods: &[usize], stem: &Path) -> Result<(), ChartError> {
+    let common = contest.common(methods);
+    let panel = |(title, tasks): (String, Vec<usize>)| {
+        let reports = |method: &usize| {
+            tasks
+                .iter()
+                .filter_map(|task| contest.report(*method, *task))
+                .collect::<Vec<_>>()
+        };
+        let title = format!("{title}, {} tasks", tasks.len());
+        (title, methods.iter().map(|method| shares(&reports(method))).collect())
+    };
+    let series = methods.iter().map(|k| &contest.methods[*k]);
+    let figure = Multiples {
+        panels: contest.by_spacing(&common).into_iter().map(panel).collect(),
+        series: series
+            .map(|method| (method.label.clone(), style::method(method).colour))
+            .collect(),
+    };
+    write_both(&figure, stem)
+}
+
+/// Series with the colours of categories.
+fn coloured(names: impl Iterator<Item = String>) -> Vec<(String, RGBColor)> {
+    names.enumerate().map(|(k, name)| (name, style::category(k))).collect()
 }
 
 /// Share of triangles a degree, in percent: the mean over meshes, so that a large mesh counts as much as a small one.
@@ -89,8 +122,8 @@ const CUT: f64 = 30.0;
 struct Multiples {
     /// Title of each panel, and the shares of each series in it.
     panels: Vec<(String, Vec<Vec<f64>>)>,
-    /// Names of the series.
-    series: Vec<String>,
+    /// Names and colours of the series.
+    series: Vec<(String, RGBColor)>,
 }
 
 impl Multiples {
@@ -126,11 +159,13 @@ impl Figure for Multiples {
             let mut panel = Panel::new(area, title, x, Axis::linear(label, 0.0..top, 5), 56)?;
             for (series, shares) in lines.iter().enumerate() {
                 let shares: Vec<f64> = shares.iter().map(|share| share.min(top)).collect();
-                panel.line(&steps(&shares), style::category(series), 3)?;
+                panel.line(&steps(&shares), self.series[series].1, 3)?;
             }
         }
-        let entries = self.series.iter().enumerate();
-        let entries = entries.map(|(k, name)| (Key::Line(style::category(k)), name.clone()));
+        let entries = self
+            .series
+            .iter()
+            .map(|(name, colour)| (Key::Line(*colour), name.clone()));
         legend_row(&key, 62, &entries.collect::<Vec<_>>())
     }
 }

@@ -2,6 +2,7 @@
 //! series has a marker of its own besides.
 
 use super::canvas::{Area, Drawn, FINE, FONT};
+use crate::experiment::contest::Method;
 use plotters::prelude::{Circle, Color, DrawingBackend, PathElement, Polygon, RGBColor, ShapeStyle, TextStyle};
 use plotters::style::IntoFont;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
@@ -37,6 +38,13 @@ const CATEGORIES: [RGBColor; 7] = [
 /// The colour of the category with this index.
 pub(super) fn category(index: usize) -> RGBColor {
     CATEGORIES[index % CATEGORIES.len()]
+}
+
+/// The marker of a method, in the colour of its mesher: the same in all figures. Hollow where parameters differ from the
+/// mesher's defaults.
+pub(super) fn method(method: &Method) -> Marker {
+    let marker = Marker::new(method.place, category(method.place));
+    if method.is_default { marker } else { marker.hollow() }
 }
 
 /// The colour of item `index` of `count` ordered ones: viridis without its palest end.

@@ -84,6 +84,7 @@ impl Arguments {
             c_b,
             seed: 0,
             lfs_cap: !self.no_lfs_cap,
+            triangles: None,
             timed: false,
         }
     }

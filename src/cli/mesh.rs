@@ -126,6 +126,7 @@ impl Arguments {
             c_b: self.c_b,
             seed: self.seed,
             lfs_cap: !self.no_lfs_cap,
+            triangles: None,
             timed: false,
         })
     }

@@ -41,6 +41,9 @@ pub fn findings(expect: &Expectations, rows: &[Row]) -> Vec<Finding> {
             holds: share >= expect.measured_share,
         });
     }
+    if let Some(most) = expect.unmeshed_share {
+        findings.extend(unmeshed(rows, most));
+    }
     for (domain, &least) in &expect.measured_per_domain {
         let measured = count_measured(rows.iter().filter(|row| &row.cell.domain == domain));
         findings.push(Finding {
@@ -50,6 +53,28 @@ pub fn findings(expect: &Expectations, rows: &[Row]) -> Vec<Finding> {
         });
     }
     findings
+}
+
+/// One finding for each mesher: how many of its cells that were tried have no mesh.
+fn unmeshed(rows: &[Row], most: f64) -> Vec<Finding> {
+    let meshers = summary::first_seen(rows.iter().map(|row| row.cell.mesher.as_str()));
+    let one = |mesher: &str| {
+        let tried: Vec<&Row> = rows
+            .iter()
+            .filter(|row| row.cell.mesher == mesher && row.outcome != Outcome::Skipped)
+            .collect();
+        let without = tried.iter().filter(|row| row.outcome != Outcome::Measured);
+        let keys: Vec<String> = without.map(|row| row.key.clone()).collect();
+        Finding {
+            expected: format!(
+                "{mesher} declines or fails at most {:.0} % of the cells it is given",
+                100.0 * most
+            ),
+            found: told(&keys, tried.len()),
+            holds: keys.len() as f64 <= most * tried.len() as f64,
+        }
+    };
+    meshers.into_iter().map(one).collect()
 }
 
 /// Whether anything was measured at all.
@@ -78,11 +103,12 @@ fn certificates(rows: &[Row]) -> Finding {
     }
 }
 
-/// The paper's own setting: no input angle under 90°, t small, and no circles of neighbouring input vertices that meet
+/// The paper's own method and setting: no input angle under 90°, t small, and no circles of neighbouring input vertices that meet
 /// low. There every check must hold, whether it is guaranteed or not.
 fn whole_certificates(rows: &[Row], largest_t: f64) -> Finding {
     let inside: Vec<_> = rows
         .iter()
+        .filter(|row| summary::is_ours(row))
         .filter_map(|row| Some((row, summary::measured(row)?)))
         .filter(|(row, report)| {
             summary::setting(report) == Setting::Papers && row.cell.lfs_cap && report.t <= largest_t
@@ -110,6 +136,7 @@ fn whole_certificates(rows: &[Row], largest_t: f64) -> Finding {
 fn low_overlaps(rows: &[Row]) -> Finding {
     let low: Vec<_> = rows
         .iter()
+        .filter(|row| summary::is_ours(row))
         .filter_map(|row| Some((row, summary::measured(row)?)))
         .filter(|(row, report)| row.cell.lfs_cap && report.certificate.low_head_on > 0)
         .filter(|(_, report)| summary::setting(report) == Setting::LowOverlap)

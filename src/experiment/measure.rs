@@ -142,6 +142,7 @@ mod tests {
                 c_b: 0.5,
                 seed: 0,
                 lfs_cap: true,
+                triangles: None,
                 timed: false,
             };
             let defaults = complete(&cell);

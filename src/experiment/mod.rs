@@ -3,6 +3,9 @@
 //! [`plan`] reads an experiment's cells, [`work`] gathers those with one mesh, [`runner`] runs them by [`measure`] on what
 //! [`prepare`] made, [`journal`] keeps the rows, [`expect`] holds them against what was expected.
 
+pub mod claims;
+pub mod contest;
+mod ending;
 pub mod expect;
 mod gate;
 pub mod journal;
@@ -14,4 +17,5 @@ pub mod record;
 pub mod runner;
 pub mod series;
 pub mod summary;
+pub mod tune;
 pub mod work;

@@ -18,18 +18,27 @@
 //! spacings = ["lfs"]
 //! mesher = "biting"
 //! params = [{ order = "fifo" }]  # default: one cell with the mesher's defaults
+//! # several meshers: `methods = [{ mesher = "biting" }, { mesher = "biting", params = { order = "fifo" } }]` instead of both
 //! t = [0.25, "1/3"]              # numbers or fractions
 //! c_b = [0.25, 1.0]
 //! seeds = [0]                    # default
 //! lfs_cap = true                 # default
+//! equal_triangles = 20_000       # without it c_b stays as asked; with it c_b is scaled until a mesh has so many
 //! timed = false                  # default; a timed cell runs alone, `repeats` times
 //! repeats = 3                    # default
 //! quick = { t = [0.25] }         # lists that replace those above under --quick; without it the group is left out
 //! ```
 
+mod group;
+mod number;
+#[cfg(test)]
+mod tests;
+
+pub use group::Group;
+pub use number::{Number, fraction};
+
 use super::record::Cell;
 use serde::Deserialize;
-use serde_json::{Map, Value};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -91,111 +100,10 @@ pub struct Expectations {
     pub certificate_whole_up_to_t: Option<Number>,
     /// The least share of cells that must be measured.
     pub measured_share: f64,
+    /// The largest share of a mesher's cells that may be declined or fail, of those that are not skipped.
+    pub unmeshed_share: Option<f64>,
     /// The least number of measured cells of some domains.
     pub measured_per_domain: BTreeMap<String, usize>,
-}
-
-/// A group: every combination of its lists is a cell.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Group {
-    /// Its name in the rows; the charts know `grid`, `orders` and `time`.
-    pub name: String,
-    /// Gallery names or files.
-    pub domains: Vec<String>,
-    /// Spacings before cap and limiting.
-    pub spacings: Vec<String>,
-    /// Name in `MESHERS`.
-    pub mesher: String,
-    /// Parameters that differ from the mesher's defaults, one table a variant.
-    #[serde(default = "one_empty_table")]
-    params: Vec<Map<String, Value>>,
-    t: Vec<Number>,
-    c_b: Vec<Number>,
-    #[serde(default = "seed_zero")]
-    seeds: Vec<u64>,
-    #[serde(default = "yes")]
-    lfs_cap: bool,
-    #[serde(default)]
-    timed: bool,
-    #[serde(default = "three")]
-    repeats: usize,
-    /// Triangles, where the group needs another budget than the plan's.
-    #[serde(default)]
-    budget: Option<CellBudget>,
-    #[serde(default)]
-    quick: Option<Quick>,
-}
-
-/// The lists of a group that `--quick` replaces.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct Quick {
-    domains: Option<Vec<String>>,
-    spacings: Option<Vec<String>>,
-    params: Option<Vec<Map<String, Value>>>,
-    t: Option<Vec<Number>>,
-    c_b: Option<Vec<Number>>,
-    repeats: Option<usize>,
-}
-
-fn one_empty_table() -> Vec<Map<String, Value>> {
-    vec![Map::new()]
-}
-
-fn seed_zero() -> Vec<u64> {
-    vec![0]
-}
-
-fn yes() -> bool {
-    true
-}
-
-fn three() -> usize {
-    3
-}
-
-/// A number, or a fraction in quotes, since TOML cannot write 1/3.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "Written")]
-pub struct Number(f64);
-
-impl Number {
-    /// Its value, positive and finite.
-    pub fn get(self) -> f64 {
-        self.0
-    }
-}
-
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Written {
-    Number(f64),
-    Text(String),
-}
-
-impl TryFrom<Written> for Number {
-    type Error = String;
-
-    fn try_from(written: Written) -> Result<Self, String> {
-        let value = match written {
-            Written::Number(value) => value,
-            Written::Text(text) => fraction(&text).ok_or_else(|| format!("`{text}` is no number such as \"1/3\""))?,
-        };
-        if value.is_finite() && value > 0.0 {
-            Ok(Self(value))
-        } else {
-            Err(format!("{value} must be positive and finite"))
-        }
-    }
-}
-
-/// `"1/3"` or `"0.25"` as a number.
-pub fn fraction(text: &str) -> Option<f64> {
-    match text.split_once('/') {
-        Some((over, under)) => Some(over.trim().parse::<f64>().ok()? / under.trim().parse::<f64>().ok()?),
-        None => text.trim().parse().ok(),
-    }
 }
 
 /// One cell of a plan, before anything is known of it.
@@ -306,77 +214,3 @@ impl Plan {
         Ok(cells)
     }
 }
-
-impl Group {
-    fn into_quick(mut self) -> Option<Self> {
-        let quick = self.quick.take()?;
-        self.domains = quick.domains.unwrap_or(self.domains);
-        self.spacings = quick.spacings.unwrap_or(self.spacings);
-        self.params = quick.params.unwrap_or(self.params);
-        self.t = quick.t.unwrap_or(self.t);
-        self.c_b = quick.c_b.unwrap_or(self.c_b);
-        self.repeats = quick.repeats.unwrap_or(self.repeats);
-        Some(self)
-    }
-
-    fn cells(&self, budget: CellBudget) -> Result<Vec<PlannedCell>, String> {
-        if self.timed && self.repeats == 0 {
-            return Err("`repeats` must be at least 1".into());
-        }
-        let mut cells = Vec::new();
-        for domain in &self.domains {
-            for spacing in &self.spacings {
-                for params in &self.params {
-                    for &seed in &self.seeds {
-                        for t in &self.t {
-                            for c_b in &self.c_b {
-                                let cell = Cell {
-                                    domain: domain.clone(),
-                                    mesher: self.mesher.clone(),
-                                    params: params.clone(),
-                                    spacing: spacing.clone(),
-                                    t: t.get(),
-                                    c_b: c_b.get(),
-                                    seed,
-                                    lfs_cap: self.lfs_cap,
-                                    timed: self.timed,
-                                };
-                                cells.push(PlannedCell {
-                                    key: key(&self.name, &cell),
-                                    group: self.name.clone(),
-                                    budget: self.budget.unwrap_or(budget),
-                                    repeats: if self.timed { self.repeats } else { 1 },
-                                    cell,
-                                });
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        Ok(cells)
-    }
-}
-
-/// The key of a row: everything the cell asks for, readable.
-fn key(group: &str, cell: &Cell) -> String {
-    let mut key = format!("{group}/{}/{}/{}", cell.domain, cell.spacing, cell.mesher);
-    for (name, value) in &cell.params {
-        let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-        key.push_str(&format!(",{name}={value}"));
-    }
-    key.push_str(&format!("/t={}/c_b={}", cell.t, cell.c_b));
-    for (text, differs) in [
-        (format!("/seed={}", cell.seed), cell.seed != 0),
-        ("/no-lfs-cap".into(), !cell.lfs_cap),
-        ("/timed".into(), cell.timed),
-    ] {
-        if differs {
-            key.push_str(&text);
-        }
-    }
-    key
-}
-
-#[cfg(test)]
-mod tests;

@@ -128,10 +128,23 @@ pub struct Row {
     pub cell: Cell,
     /// Seconds of each repeat of a timed cell; the report's total is their median.
     pub samples: Vec<f64>,
+    /// Where a number of triangles was asked for: every c_b tried, in order. The report is of the one that came nearest, and
+    /// says its c_b, its t (the spacing being what it was) and its triangles, also where that is not near.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tries: Vec<Try>,
     /// The key of the cell whose mesh this row reports too: limiting changes nothing in either and all else is equal.
     pub same_as: Option<String>,
     /// All about the mesh.
     pub report: Option<Report>,
+}
+
+/// A try at a number of triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Try {
+    /// Biting constant.
+    pub c_b: f64,
+    /// Triangles it gave; absent where there was no mesh.
+    pub triangles: Option<u64>,
 }
 
 /// What a cell asks for.
@@ -147,12 +160,26 @@ pub struct Cell {
     pub spacing: String,
     /// Nominal t.
     pub t: f64,
-    /// Biting constant.
+    /// Biting constant; where `triangles` is there, that from which it is scaled.
     pub c_b: f64,
     /// Seed.
     pub seed: u64,
     /// Whether the spacing is capped by lfs.
     pub lfs_cap: bool,
+    /// Triangles the mesh shall have: c_b is scaled until it has, the spacing staying as it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub triangles: Option<u64>,
     /// Whether it runs alone and repeated.
     pub timed: bool,
+}
+
+impl Cell {
+    /// The cell with another c_b for the same spacing: α = t / c_b stays.
+    pub fn scaled_to(&self, c_b: f64) -> Self {
+        Self {
+            t: self.t * (c_b / self.c_b),
+            c_b,
+            ..self.clone()
+        }
+    }
 }

@@ -4,18 +4,18 @@
 //! does not fall on one of them. Then cells that are only counted and measured run side by side, as far as their memory
 //! fits.
 
+use super::ending::{Ending, guarded, slim, take_median, unwritable};
 use super::gate::Gate;
 use super::journal::{Journal, JournalError, Line};
 use super::machine;
 use super::measure::{self, Run};
 use super::plan::PlannedCell;
 use super::prepare::{Prepared, Store};
-use super::record::{Cell, Outcome, Provenance, Report, Row};
-use super::summary;
+use super::record::{Cell, Outcome, Provenance, Row};
+use super::tune::{NoMesh, Tuned, tune};
 use super::work::{Task, Unit};
 use crate::meshers::{self, Budget, Entry, MeshError, Mesher, Request};
 use crate::spacing::estimate_triangles;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -79,27 +79,6 @@ fn budget_triangles(unit: &Unit, cells: &[PlannedCell]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// How a unit ended.
-struct Ending {
-    outcome: Outcome,
-    reason: Option<String>,
-    estimated_triangles: f64,
-    samples: Vec<f64>,
-    report: Option<Report>,
-}
-
-impl Ending {
-    fn without_report(outcome: Outcome, reason: String, estimated_triangles: f64) -> Self {
-        Self {
-            outcome,
-            reason: Some(reason),
-            estimated_triangles,
-            samples: Vec::new(),
-            report: None,
-        }
-    }
-}
-
 impl Sweep<'_> {
     /// Runs `tasks` and appends their rows.
     ///
@@ -139,7 +118,7 @@ impl Sweep<'_> {
         for unit in &task.units {
             let limit = budget_triangles(unit, self.cells);
             let ending = if unit.least_triangles > limit {
-                too_large(unit.least_triangles, limit)
+                Ending::too_large(unit.least_triangles, limit)
             } else {
                 let bytes = unit.guessed_triangles.min(limit) * BYTES_PER_TRIANGLE;
                 let _pass = gate.take(bytes as u64);
@@ -193,12 +172,13 @@ impl Sweep<'_> {
             Ok(prepared) => prepared,
             Err(reason) => return Ending::without_report(Outcome::Failed, reason.clone(), unit.guessed_triangles),
         };
-        let (limit, estimated) = (
-            budget_triangles(unit, self.cells),
-            estimate_triangles(prepared.integral.value, planned.cell.c_b),
-        );
+        let limit = budget_triangles(unit, self.cells);
+        let estimated = match planned.cell.triangles {
+            Some(wanted) => wanted as f64,
+            None => estimate_triangles(prepared.integral.value, planned.cell.c_b),
+        };
         if estimated > limit {
-            return too_large(estimated, limit);
+            return Ending::too_large(estimated, limit);
         }
         let bytes = estimated * BYTES_PER_TRIANGLE;
         if bytes > self.memory_bytes as f64 {
@@ -207,20 +187,24 @@ impl Sweep<'_> {
             return Ending::without_report(Outcome::Skipped, reason, estimated);
         }
         let attempt = guarded(|| {
-            let (entry, run) = self.mesh(planned, prepared, limit)?;
+            let (entry, mesher) = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
+            let tuned = self.first_mesh(planned, prepared, &*mesher, limit)?;
+            let (asked, run) = (planned.cell.scaled_to(tuned.c_b), tuned.value);
             let provenance = Provenance {
                 date: machine::now(),
                 ..self.provenance.clone()
             };
-            let report = measure::judge(prepared, &planned.cell, entry, &run, &provenance);
-            Ok((report, run.seconds.total))
+            let mut report = measure::judge(prepared, &asked, entry, &run, &provenance);
+            slim(&mut report);
+            Ok((report, run.seconds.total, tuned.tries))
         });
         match attempt {
-            Ok(Ok((report, seconds))) => Ending {
+            Ok(Ok((report, seconds, tries))) => Ending {
                 outcome: Outcome::Measured,
                 reason: None,
                 estimated_triangles: estimated,
                 samples: if planned.cell.timed { vec![seconds] } else { Vec::new() },
+                tries,
                 report: Some(report),
             },
             Ok(Err((outcome, reason))) => Ending::without_report(outcome, reason, estimated),
@@ -228,14 +212,46 @@ impl Sweep<'_> {
         }
     }
 
+    /// The mesh of a cell: one with its c_b, or the one nearest to the number of triangles it asks for.
+    fn first_mesh(
+        &self,
+        planned: &PlannedCell,
+        prepared: &Prepared,
+        mesher: &dyn Mesher,
+        limit: f64,
+    ) -> Result<Tuned<Run>, (Outcome, String)> {
+        let once = |c_b| self.mesh(planned, c_b, prepared, mesher, limit);
+        let Some(wanted) = planned.cell.triangles else {
+            let c_b = planned.cell.c_b;
+            let value = once(c_b).map_err(ended)?;
+            return Ok(Tuned {
+                tries: Vec::new(),
+                c_b,
+                value,
+            });
+        };
+        // As many as expected for c_b = 1, times c_b to the power −2.
+        let start = (estimate_triangles(prepared.integral.value, 1.0) / wanted as f64).sqrt();
+        tune(wanted, start, |c_b| {
+            let run = once(c_b).map_err(|error| NoMesh {
+                too_many: matches!(error, MeshError::Budget { .. }),
+                error,
+            })?;
+            Ok((run.mesh.triangles.len() as u64, run))
+        })
+        .map_err(|none| ended(none.error))
+    }
+
     /// One more timing of a unit that has been judged: the mesh must be the same, bit by bit.
     fn repeat(&self, unit: &Unit, prepared: Result<&Prepared, &String>, row: Row) -> Ending {
         let planned = &self.cells[unit.cells[0]];
         let estimated = row.estimated_triangles;
         let limit = budget_triangles(unit, self.cells);
+        let c_b = row.report.as_ref().map_or(planned.cell.c_b, |report| report.c_b);
         let attempt = guarded(|| {
             let prepared = prepared.map_err(|reason| (Outcome::Failed, reason.clone()))?;
-            Ok(self.mesh(planned, prepared, limit)?.1)
+            let (_, mesher) = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
+            self.mesh(planned, c_b, prepared, &*mesher, limit).map_err(ended)
         });
         let (run, mut report) = match (attempt, row.report) {
             (Ok(Ok(run)), Some(report)) => (run, report),
@@ -261,6 +277,7 @@ impl Sweep<'_> {
             reason: None,
             estimated_triangles: estimated,
             samples,
+            tries: row.tries,
             report: Some(report),
         }
     }
@@ -268,12 +285,13 @@ impl Sweep<'_> {
     fn mesh(
         &self,
         planned: &PlannedCell,
+        c_b: f64,
         prepared: &Prepared,
+        mesher: &dyn Mesher,
         limit: f64,
-    ) -> Result<(&'static Entry, Run), (Outcome, String)> {
-        let (entry, mesher) = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
+    ) -> Result<Run, MeshError> {
         let request = Request {
-            c_b: planned.cell.c_b,
+            c_b,
             seed: planned.cell.seed,
             threads: 1,
             budget: Budget {
@@ -285,14 +303,7 @@ impl Sweep<'_> {
         if planned.cell.timed {
             machine::reset_peak_rss();
         }
-        let run = measure::run(prepared, &*mesher, &request).map_err(|error| {
-            let declined = matches!(error, MeshError::Budget { .. } | MeshError::Declined(_));
-            (
-                if declined { Outcome::Declined } else { Outcome::Failed },
-                error.to_string(),
-            )
-        })?;
-        Ok((entry, run))
+        measure::run(prepared, mesher, &request)
     }
 
     /// Appends the rows of a unit's cells.
@@ -303,7 +314,8 @@ impl Sweep<'_> {
             let mut report = ending.report.clone();
             if let Some(report) = &mut report {
                 // The mesh is the same; what was asked for is not.
-                (report.t, report.alpha) = (planned.cell.t, planned.cell.t / planned.cell.c_b);
+                let asked = planned.cell.scaled_to(report.c_b);
+                (report.t, report.alpha) = (asked.t, planned.cell.t / planned.cell.c_b);
             }
             let row = Row {
                 key: planned.key.clone(),
@@ -313,6 +325,7 @@ impl Sweep<'_> {
                 estimated_triangles: ending.estimated_triangles,
                 cell: planned.cell.clone(),
                 samples: ending.samples.clone(),
+                tries: ending.tries.clone(),
                 same_as: (place > 0).then(|| first.key.clone()),
                 report,
             };
@@ -338,44 +351,9 @@ pub fn mesher(cell: &Cell) -> Result<(&'static Entry, Box<dyn Mesher>), String> 
     Ok((entry, mesher))
 }
 
-fn too_large(estimated: f64, limit: f64) -> Ending {
-    let reason = format!("about {estimated:.0} triangles expected, above the cell's budget of {limit:.0}");
-    Ending::without_report(Outcome::Skipped, reason, estimated)
-}
-
-/// JSON has no numbers that are not finite: the cell failed, and the row says so.
-fn unwritable(row: Row, error: &str) -> Row {
-    let reason = format!("its report cannot be written ({error}): a number in it is not finite");
-    Row {
-        outcome: Outcome::Failed,
-        reason: Some(reason),
-        estimated_triangles: if row.estimated_triangles.is_finite() {
-            row.estimated_triangles
-        } else {
-            f64::MAX
-        },
-        samples: Vec::new(),
-        report: None,
-        ..row
-    }
-}
-
-/// The report's times become those of the run nearest to the median of `samples`, its total the median itself.
-fn take_median(report: &mut Report, run: Run, samples: &[f64]) {
-    let Some(median) = summary::median(samples.to_vec()) else {
-        return;
-    };
-    if (run.seconds.total - median).abs() < (report.seconds.total - median).abs() {
-        report.seconds.steps = run.seconds.steps;
-    }
-    report.seconds.total = median;
-}
-
-/// A panic in one cell is that cell's failure, and no reason to lose the others.
-fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
-        let text = panic.downcast_ref::<String>().cloned();
-        let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
-        format!("panicked: {}", text.unwrap_or_else(|| "no message".into()))
-    })
+/// How a cell without a mesh ended, and why.
+fn ended(error: MeshError) -> (Outcome, String) {
+    let declined = matches!(error, MeshError::Budget { .. } | MeshError::Declined(_));
+    let outcome = if declined { Outcome::Declined } else { Outcome::Failed };
+    (outcome, error.to_string())
 }

@@ -1,5 +1,6 @@
 //! Rows gathered by order of bites, and seconds gathered by step.
 
+use crate::experiment::contest::Contest;
 use crate::experiment::record::{Report, Row};
 use crate::experiment::summary::{Line, by_spacing, first_seen, fit_line, measured, parameter};
 
@@ -48,6 +49,21 @@ pub struct TimeSeries {
 }
 
 impl TimeSeries {
+    /// The whole runs of one method of a contest, the series named after it.
+    pub fn of_method(contest: &Contest, method: usize) -> Self {
+        let point = |report: &Report| (report.statistics.triangles as f64, report.seconds.total);
+        let measured: Vec<_> = contest.rows(method).filter_map(measured).map(point).collect();
+        let missing = contest.rows(method).count() - measured.len();
+        let label = &contest.methods[method].label;
+        Self {
+            name: match missing {
+                0 => label.clone(),
+                _ => format!("{label}, {missing} missing"),
+            },
+            points: measured,
+        }
+    }
+
     /// The line through log₁₀ seconds against log₁₀ triangles.
     pub fn fit(&self) -> Option<Line> {
         let positive = self.points.iter().filter(|point| point.0 > 0.0 && point.1 > 0.0);

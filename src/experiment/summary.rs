@@ -4,6 +4,12 @@
 
 use crate::experiment::record::{Outcome, Report, Row};
 use crate::geometry::tolerance::RIGHT_ANGLE_DEG;
+use crate::meshers::MESHERS;
+
+/// Whether a row is of the paper's own method, which is the first of the list.
+pub fn is_ours(row: &Row) -> bool {
+    row.cell.mesher == MESHERS[0].name
+}
 
 /// Whether two neighbouring segments meet at an angle under 90°, inside or outside: §5.1 assumes that none do.
 pub fn is_acute(report: &Report) -> bool {
@@ -111,30 +117,40 @@ const LONGEST_TITLE: usize = 24;
 /// More spacings of one family than this are taken together.
 const MOST_OF_A_FAMILY: usize = 4;
 
-/// Splits rows by their spacing: `lfs` first, since the paper's sizes refer to it, then the others in the order in which
-/// they first appear, those of one family side by side. Each comes with a title: the spacing itself where it is short,
-/// else its family's name, numbered where the family has several.
+/// Splits rows by their spacing, as [`specs_by_title`] does.
 pub fn by_spacing<'a>(rows: &[&'a Row]) -> Vec<(String, Vec<&'a Row>)> {
-    let mut families = first_seen(rows.iter().map(|row| family(&row.cell.spacing)));
+    let specs: Vec<&str> = rows.iter().map(|row| row.cell.spacing.as_str()).collect();
+    let own = |specs: &[&str]| {
+        let is_own = |row: &&&Row| specs.contains(&row.cell.spacing.as_str());
+        rows.iter().filter(is_own).copied().collect()
+    };
+    specs_by_title(&specs)
+        .into_iter()
+        .map(|(title, specs)| (title, own(&specs)))
+        .collect()
+}
+
+/// The different ones of some spacings: `lfs` first, since the paper's sizes refer to it, then the others in the order in
+/// which they first appear, those of one family side by side. Each comes under a title: the spacing itself where it is
+/// short, else its family's name, numbered where the family has several.
+pub fn specs_by_title<'a>(specs: &[&'a str]) -> Vec<(String, Vec<&'a str>)> {
+    let mut families = first_seen(specs.iter().map(|spec| family(spec)));
     families.sort_by_key(|name| *name != "lfs");
     let mut split = Vec::new();
     for name in families {
-        let own = |row: &&&Row| family(&row.cell.spacing) == name;
-        let specs = first_seen(rows.iter().filter(own).map(|row| row.cell.spacing.as_str()));
-        if specs.len() > MOST_OF_A_FAMILY {
-            split.push((name.to_string(), rows.iter().filter(own).copied().collect()));
+        let own = first_seen(specs.iter().copied().filter(|spec| family(spec) == name));
+        if own.len() > MOST_OF_A_FAMILY {
+            split.push((name.to_string(), own));
             continue;
         }
-        for (place, spec) in specs.iter().enumerate() {
-            let title = match (spec.chars().count() <= LONGEST_TITLE, specs.len()) {
+        let count = own.len();
+        for (place, spec) in own.into_iter().enumerate() {
+            let title = match (spec.chars().count() <= LONGEST_TITLE, count) {
                 (true, _) => spec.to_string(),
                 (false, 1) => name.to_string(),
                 (false, _) => format!("{name} {}", place + 1),
             };
-            split.push((
-                title,
-                rows.iter().filter(|row| row.cell.spacing == *spec).copied().collect(),
-            ));
+            split.push((title, vec![spec]));
         }
     }
     split

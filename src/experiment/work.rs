@@ -97,10 +97,13 @@ pub fn tasks<E>(
             Value::from_iter(sorted).to_string(),
             cell.c_b.to_bits(),
             cell.seed,
+            cell.triangles,
         );
         let units = &mut tasks[task].units;
         let unit = *unit_of.entry(method).or_insert_with(|| {
             let limits = alpha.is_some() && units.is_empty();
+            let wanted = cell.triangles.map(|wanted| wanted as f64);
+            let expected = |integral| wanted.unwrap_or_else(|| estimate_triangles(integral, cell.c_b));
             units.push(Unit {
                 cells: Vec::new(),
                 set_up: if limits {
@@ -108,8 +111,8 @@ pub fn tasks<E>(
                 } else {
                     0.0
                 },
-                guessed_triangles: estimate_triangles(ahead.integral * growth(ahead, asked), cell.c_b),
-                least_triangles: estimate_triangles(ahead.integral, cell.c_b),
+                guessed_triangles: expected(ahead.integral * growth(ahead, asked)),
+                least_triangles: expected(ahead.integral),
             });
             units.len() - 1
         });
@@ -166,6 +169,7 @@ mod tests {
                 c_b,
                 seed: 0,
                 lfs_cap: true,
+                triangles: None,
                 timed: false,
             },
             budget: CellBudget::default(),
@@ -222,6 +226,19 @@ mod tests {
                 (Some(5.0), vec![vec![1]]),
                 (Some(0.25), vec![vec![2, 4]]),
             ]
+        );
+    }
+
+    #[test]
+    fn meshers_and_numbers_of_triangles_share_a_spacing() {
+        let mut cells = vec![planned("meshers", 0.25, 1.0, fifo()); 4];
+        cells[1].cell.mesher = "another".into();
+        cells[2].cell.triangles = Some(1000);
+        // The first with its defaults written out: the same mesh.
+        cells[3].cell.params = Map::new();
+        assert_eq!(
+            gathered(&cells, 1.0),
+            [(Some(0.25), vec![vec![0, 3], vec![1], vec![2]])]
         );
     }
 

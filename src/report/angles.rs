@@ -1,13 +1,13 @@
 //! The parts of the page on smallest angles, and on the hypotheses their bound needs.
 
-use super::findings::{low_overlaps, margin, margins, of_group};
+use super::findings::{low_overlaps, margin, margins, ours};
 use super::markdown::{degrees, parameter, table};
 use crate::experiment::record::Row;
 use crate::experiment::summary::{Grid, Setting};
 
 /// How far smallest angles lie above asin(1/2 − t).
 pub(super) fn angle_finding(rows: &[Row]) -> Option<String> {
-    let all = Grid::of(of_group(rows, "grid"));
+    let all = Grid::of(ours(rows, "grid"));
     let told = |of: Setting| {
         let spread = margin(&all, of, None)?;
         Some(format!(
@@ -55,7 +55,7 @@ pub(super) fn hypothesis_finding(rows: &[Row]) -> Option<String> {
 
 /// Margins for each t.
 pub(super) fn angles(rows: &[Row]) -> String {
-    let all = Grid::of(of_group(rows, "grid"));
+    let all = Grid::of(ours(rows, "grid"));
     if all.reports().next().is_none() {
         return String::new();
     }

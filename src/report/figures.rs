@@ -1,10 +1,12 @@
 //! Which charts the rows have numbers for.
 
-use super::findings;
+use super::markdown::parameter;
+use super::{claims, findings, rivals};
 use crate::charts::{self, ChartError};
+use crate::experiment::contest::{at_equal_count, at_equal_size};
 use crate::experiment::record::Row;
 use crate::experiment::series::{order_groups, time_series};
-use crate::experiment::summary::Grid;
+use crate::experiment::summary::{Grid, distinct, measured};
 use std::path::{Path, PathBuf};
 
 /// What part of the page a chart belongs to.
@@ -15,6 +17,9 @@ pub(super) enum Section {
     Fewest,
     Orders,
     Time,
+    Rivals,
+    Duels,
+    Claims,
 }
 
 /// A chart of the page.
@@ -50,12 +55,91 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Chart>, ChartError
     };
     draw_grid(rows, &mut drawer)?;
     draw_orders(rows, &mut drawer)?;
-    let series = time_series(&findings::of_group(rows, "time"));
+    let series = time_series(&findings::ours(rows, "time"));
     if !series.is_empty() {
         let caption = "Seconds against triangles, whole and by step, with the slopes of fitted lines.";
         charts::time(&series, &drawer.next(Section::Time, "time", caption))?;
     }
+    draw_rivals(rows, &mut drawer)?;
+    draw_claims(rows, &mut drawer)?;
     Ok(drawer.charts)
+}
+
+/// Meshers side by side, at equal edge length and at equal count.
+fn draw_rivals(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
+    let (size, count, time) = (at_equal_size(rows), at_equal_count(rows), rivals::timed(rows));
+    if size.has_rivals() {
+        let caption = "Methods at equal edge length: median over the tasks that all measured, and the range.";
+        charts::methods(&size, &drawer.next(Section::Rivals, "meshers", caption))?;
+        let leads = size.leads();
+        let caption =
+            "How triangles spread over smallest angles, for each mesher at equal edge length; mean over meshes.";
+        let stem = drawer.next(Section::Rivals, "meshers-angles", caption);
+        charts::angles_by_method(&size, &leads, &stem)?;
+        let caption = "Smallest and mean angle of each mesher on each domain at equal edge length.";
+        charts::domains(&size, &leads, &drawer.next(Section::Duels, "meshers-domains", caption))?;
+        if distinct(size.tasks.iter().map(|asked| asked.t)).len() > 2 {
+            let caption = "Medians over the tasks that all meshers measured, against t.";
+            let stem = drawer.next(Section::Rivals, "meshers-against-t", caption);
+            charts::methods_against_t(&size, &leads, &stem)?;
+        }
+    }
+    if count.has_rivals() {
+        let caption = "Methods at equal triangle count: median over the tasks that all measured, and the range.";
+        charts::methods(&count, &drawer.next(Section::Rivals, "meshers-count", caption))?;
+        let leads = count.leads();
+        let caption = "How triangles spread over smallest angles, for each mesher at equal count; mean over meshes.";
+        let stem = drawer.next(Section::Rivals, "meshers-count-angles", caption);
+        charts::angles_by_method(&count, &leads, &stem)?;
+        let caption = "Smallest and mean angle of each mesher on each domain at equal triangle count.";
+        charts::domains(
+            &count,
+            &leads,
+            &drawer.next(Section::Duels, "meshers-count-domains", caption),
+        )?;
+    }
+    if time.has_rivals() {
+        let caption = "Seconds against triangles for each method, with the slopes of fitted lines.";
+        charts::time_by_method(&time, &drawer.next(Section::Rivals, "meshers-time", caption))?;
+    }
+    Ok(())
+}
+
+/// Most meshes in the chart of where fronts met.
+const MOST_MEETINGS: usize = 30;
+
+/// The paper's two claims.
+fn draw_claims(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
+    let size = at_equal_size(rows);
+    let marked = |k: &usize| {
+        size.rows(*k)
+            .filter_map(measured)
+            .any(|report| report.statistics.seams.is_some())
+    };
+    if let Some(k) = size.all().into_iter().find(marked) {
+        let met = |row: &&Row| measured(row).is_some_and(|report| report.statistics.seams.is_some());
+        let named = |row: &'_ &Row| {
+            let spacing = row.cell.spacing.split(':').next().unwrap_or_default();
+            format!(
+                "{} {spacing} t={} c_b={}",
+                row.cell.domain,
+                parameter(row.cell.t),
+                parameter(row.cell.c_b)
+            )
+        };
+        let own: Vec<&Row> = size.rows(k).filter(met).collect();
+        // A part that spreads over all of them, where they are too many to be told apart.
+        let step = own.len().div_ceil(MOST_MEETINGS).max(1);
+        let shown: Vec<_> = own.into_iter().step_by(step).map(|row| (row, named(&row))).collect();
+        let caption = "Angles where fronts met (hollow) and elsewhere (filled), mesh by mesh.";
+        charts::seams(&shown, &drawer.next(Section::Claims, "seams", caption))?;
+    }
+    let sampled = claims::sampled(rows);
+    if sampled.len() > 1 {
+        let caption = "What the density of samples does to an independent set, beside biting on the same tasks.";
+        charts::oversampling(&sampled, &drawer.next(Section::Claims, "oversampling", caption))?;
+    }
+    Ok(())
 }
 
 fn draw_grid(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
@@ -100,7 +184,7 @@ fn draw_grid(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
 }
 
 fn draw_orders(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
-    let groups = order_groups(&findings::of_group(rows, "orders"));
+    let groups = order_groups(&findings::ours(rows, "orders"));
     if groups.iter().all(|group| group.reports.is_empty()) {
         return Ok(());
     }

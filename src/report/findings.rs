@@ -3,7 +3,9 @@
 use super::markdown::{degrees, number, parameter};
 use crate::experiment::record::{Outcome, Report, Row};
 use crate::experiment::series::{OrderGroup, TimeSeries, order_groups, time_series};
-use crate::experiment::summary::{Grid, Pair, Setting, by_spacing, first_seen, measured, median, quantile, setting};
+use crate::experiment::summary::{
+    Grid, Pair, Setting, by_spacing, first_seen, is_ours, measured, median, quantile, setting,
+};
 
 /// How cells ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -108,7 +110,7 @@ pub(super) struct LowOverlaps {
 /// Counts them.
 pub(super) fn low_overlaps(rows: &[Row]) -> LowOverlaps {
     let mut found = LowOverlaps::default();
-    for report in rows.iter().filter_map(measured) {
+    for report in rows.iter().filter(|row| is_ours(row)).filter_map(measured) {
         if setting(report) == Setting::Acute || !report.lfs_cap || report.t_effective > 1.0 / 3.0 {
             continue;
         }
@@ -199,6 +201,7 @@ fn best_on(groups: &[OrderGroup], group: &OrderGroup, value: fn(&Report) -> Opti
 /// How often one claim of the certificate held.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ClaimTally {
+    pub(super) mesher: String,
     pub(super) claim: String,
     pub(super) lemma: String,
     /// Cells in which it is guaranteed, and in how many of these it held.
@@ -207,17 +210,17 @@ pub(super) struct ClaimTally {
     pub(super) measured: (usize, usize),
 }
 
-/// One tally for each claim, in the certificates' order.
+/// One tally for each mesher and claim, the claims in the certificates' order.
 pub(super) fn claims(rows: &[Row]) -> Vec<ClaimTally> {
     let mut tallies: Vec<ClaimTally> = Vec::new();
-    for check in rows
-        .iter()
-        .filter_map(measured)
-        .flat_map(|report| &report.certificate.checks)
+    let reports = rows.iter().filter_map(measured);
+    for (report, check) in reports.flat_map(|report| report.certificate.checks.iter().map(move |check| (report, check)))
     {
-        let known = tallies.iter().position(|tally| tally.claim == check.claim);
+        let is_same = |tally: &ClaimTally| tally.claim == check.claim && tally.mesher == report.mesher;
+        let known = tallies.iter().position(is_same);
         let place = known.unwrap_or_else(|| {
             tallies.push(ClaimTally {
+                mesher: report.mesher.clone(),
                 claim: check.claim.clone(),
                 lemma: check.lemma.clone(),
                 guaranteed: (0, 0),
@@ -237,9 +240,16 @@ pub(super) fn claims(rows: &[Row]) -> Vec<ClaimTally> {
     tallies
 }
 
-/// The grid rows by spacing.
+/// The rows of one group of the plan that the paper's own method made.
+pub(super) fn ours<'a>(rows: &'a [Row], group: &str) -> Vec<&'a Row> {
+    let mut own = of_group(rows, group);
+    own.retain(|row| is_ours(row));
+    own
+}
+
+/// The grid rows of the paper's own method by spacing.
 pub(super) fn grids(rows: &[Row]) -> Vec<(String, Grid<'_>)> {
-    let split = by_spacing(&of_group(rows, "grid"));
+    let split = by_spacing(&ours(rows, "grid"));
     split.into_iter().map(|(title, rows)| (title, Grid::of(rows))).collect()
 }
 
@@ -262,7 +272,7 @@ pub(super) struct Slope {
 
 /// The whole mesh first, then its steps.
 pub(super) fn slopes(rows: &[Row]) -> Vec<Slope> {
-    let series = time_series(&of_group(rows, "time"));
+    let series = time_series(&ours(rows, "time"));
     let one = |series: TimeSeries| {
         let triangles: Vec<f64> = series.points.iter().map(|point| point.0).collect();
         let end = |q| quantile(triangles.clone(), q).unwrap_or(0.0);
@@ -276,10 +286,11 @@ pub(super) fn slopes(rows: &[Row]) -> Vec<Slope> {
     series.into_iter().map(one).collect()
 }
 
-/// Checks that did not hold, as lines of a table: the guaranteed ones, or those only measured.
+/// Checks that did not hold, as lines of a table: the guaranteed ones of all methods, or those only measured, of the
+/// paper's own.
 pub(super) fn broken_checks(rows: &[Row], applies: bool) -> Vec<Vec<String>> {
     let mut lines = Vec::new();
-    for report in rows.iter().filter_map(measured) {
+    for report in rows.iter().filter(|row| applies || is_ours(row)).filter_map(measured) {
         for check in report
             .certificate
             .checks
@@ -288,6 +299,7 @@ pub(super) fn broken_checks(rows: &[Row], applies: bool) -> Vec<Vec<String>> {
         {
             let at = check.at.map(|[x, y]| format!("({}, {})", number(x), number(y)));
             lines.push(vec![
+                report.mesher.clone(),
                 report.domain.clone(),
                 report.spacing.clone(),
                 parameter(report.t),

@@ -51,9 +51,11 @@ pub(super) fn row(group: &str, domain: &str, spacing: &str, t: f64, c_b: f64, or
             c_b,
             seed: 0,
             lfs_cap: true,
+            triangles: None,
             timed: group == "time",
         },
         samples: Vec::new(),
+        tries: Vec::new(),
         same_as: None,
         report: None,
     }

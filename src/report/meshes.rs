@@ -1,6 +1,8 @@
 //! A picture of a mesh of each domain, made again from its row.
 
+use super::markdown::{degrees, parameter};
 use crate::charts::{ChartError, draw_mesh, draw_mesh_sheet};
+use crate::experiment::contest::at_equal_size;
 use crate::experiment::measure::{fingerprint, run};
 use crate::experiment::prepare::Store;
 use crate::experiment::record::{Report, Row};
@@ -15,8 +17,10 @@ use std::path::Path;
 pub(super) struct Picture {
     /// Its file is `charts/NAME.png`.
     pub(super) name: String,
-    /// The row it shows.
-    pub(super) report: Report,
+    /// What it shows, for who cannot see it.
+    pub(super) title: String,
+    /// The same with numbers.
+    pub(super) caption: String,
 }
 
 /// What is shown: where triangles can be seen, near this t and c_b.
@@ -27,14 +31,17 @@ const SHEET: [&str; 4] = ["plate-hole", "gear", "naca0012", "iceland"];
 /// A picture of more triangles shows colours only, and takes its time.
 const MOST_TRIANGLES: usize = 60_000;
 
-/// Draws a mesh of each domain of the grid. A row says enough to make its mesh again, and its fingerprint whether that
+/// Triangles of a mesh on the sheet of meshers: enough to show what they do, few enough to be seen.
+const SHEET_TRIANGLES: f64 = 900.0;
+
+/// Draws one domain meshed by every mesher, and a mesh of each domain of the grid. A row says enough to make its mesh again, and its fingerprint whether that
 /// came out the same; where it did not, on another machine or by a later version, there is no picture.
 pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartError> {
     let store = Store::new(None, false);
-    let mut pictures = Vec::new();
+    let mut pictures: Vec<Picture> = meshers(&store, rows, folder)?.into_iter().collect();
     let mut sheet: Vec<(String, Mesh)> = Vec::new();
     for (row, report) in chosen(rows) {
-        let Some(mesh) = made_again(&store, row).filter(|mesh| fingerprint(mesh) == report.fingerprint) else {
+        let Some(mesh) = made_again(&store, row, report) else {
             continue;
         };
         let name: String = row
@@ -47,7 +54,8 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartErr
         draw_mesh(&mesh, &folder.join(format!("{name}.png")))?;
         pictures.push(Picture {
             name,
-            report: report.clone(),
+            title: format!("Mesh of {}", report.domain),
+            caption: format!("`{}` with {}", report.domain, told(report)),
         });
         if SHEET.contains(&row.cell.domain.as_str()) {
             sheet.push((row.cell.domain.clone(), mesh));
@@ -77,12 +85,64 @@ fn chosen(rows: &[Row]) -> Vec<(&Row, &Report)> {
     domains.iter().filter_map(best).collect()
 }
 
-/// The mesh of a row, if its domain, spacing and mesher are still there.
-fn made_again(store: &Store, row: &Row) -> Option<Mesh> {
+/// One domain meshed by the defaults of every mesher, for the same edge length.
+fn meshers(store: &Store, rows: &[Row], folder: &Path) -> Result<Option<Picture>, ChartError> {
+    let contest = at_equal_size(rows);
+    let leads = contest.leads();
+    let common = contest.common(&leads);
+    let off = |task: &usize| {
+        let triangles = contest.median(leads[0], &[*task], |report| Some(report.statistics.triangles as f64));
+        (triangles.unwrap_or(f64::MAX) / SHEET_TRIANGLES).ln().abs()
+    };
+    let known = |task: &&usize| SHEET.contains(&contest.tasks[**task].domain.as_str());
+    let shown = common.iter().filter(known).min_by(|a, b| off(a).total_cmp(&off(b)));
+    let Some(&task) = shown.filter(|_| contest.has_rivals()) else {
+        return Ok(None);
+    };
+    let made = |k: &usize| {
+        let (row, report) = (contest.row(*k, task)?, contest.report(*k, task)?);
+        Some((
+            contest.methods[*k].label.clone(),
+            made_again(store, row, report)?,
+            told(report),
+        ))
+    };
+    let Some(made) = leads.iter().map(made).collect::<Option<Vec<_>>>() else {
+        return Ok(None);
+    };
+    let titled: Vec<_> = made.iter().map(|(label, mesh, _)| (label.as_str(), mesh)).collect();
+    let name = "meshers-side-by-side".to_string();
+    draw_mesh_sheet(&titled, &folder.join(format!("{name}.png")))?;
+    let each: Vec<String> = made
+        .iter()
+        .map(|(label, _, told)| format!("{label} with {told}"))
+        .collect();
+    Ok(Some(Picture {
+        name,
+        title: format!("{} meshed by every mesher", contest.tasks[task].domain),
+        caption: format!("`{}` by {}", contest.tasks[task].domain, each.join("; ")),
+    }))
+}
+
+/// What was asked for, and what came out.
+fn told(report: &Report) -> String {
+    format!(
+        "`{}`, t = {}, c_b = {}: {} triangles, smallest angle {}, mean smallest angle {}",
+        report.spacing,
+        parameter(report.t),
+        parameter(report.c_b),
+        report.statistics.triangles,
+        degrees(report.statistics.min_angle_deg),
+        degrees(report.statistics.mean_min_angle_deg)
+    )
+}
+
+/// The mesh of a row, if its domain, spacing and mesher are still there and it comes out the same.
+fn made_again(store: &Store, row: &Row, report: &Report) -> Option<Mesh> {
     let prepared = store.prepare_for_t(&row.cell).ok()?;
     let (_, mesher) = mesher(&row.cell).ok()?;
     let request = Request {
-        c_b: row.cell.c_b,
+        c_b: report.c_b,
         seed: row.cell.seed,
         threads: 1,
         budget: Budget {
@@ -90,5 +150,6 @@ fn made_again(store: &Store, row: &Row) -> Option<Mesh> {
             ..Budget::default()
         },
     };
-    Some(run(&prepared, &*mesher, &request).ok()?.mesh)
+    let mesh = run(&prepared, &*mesher, &request).ok()?.mesh;
+    (fingerprint(&mesh) == report.fingerprint).then_some(mesh)
 }

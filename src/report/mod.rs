@@ -4,12 +4,15 @@
 //! the same bytes, in whatever order they were written.
 
 mod angles;
+mod claims;
+mod duels;
 mod figures;
 mod findings;
 mod markdown;
 mod meshes;
 mod page;
 mod quote;
+mod rivals;
 mod sections;
 
 #[cfg(test)]

@@ -1,10 +1,13 @@
 //! `README.md` of a results folder: what was run, what came out, the charts.
 
 use super::angles;
+use super::claims;
+use super::duels;
 use super::figures::{Chart, Section};
 use super::findings::{grids, of_group, spread, tally};
-use super::markdown::{degrees, number, parameter, plain, table};
+use super::markdown::{number, parameter, plain, table};
 use super::meshes::Picture;
+use super::rivals;
 use super::sections;
 use crate::experiment::record::{Outcome, Row};
 use crate::experiment::summary::{by_spacing, first_seen, measured, quantile};
@@ -38,6 +41,17 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
         ),
         ("Orders of bites", sections::orders(rows), Section::Orders),
         ("Time", sections::time(rows), Section::Time),
+        ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
+        (
+            "Where biting wins, where it loses, and why",
+            duels::duels(rows),
+            Section::Duels,
+        ),
+        (
+            "The paper's claims on its rivals",
+            claims::claims(rows),
+            Section::Claims,
+        ),
     ];
     for (title, part, section) in parts {
         let own: Vec<&Chart> = charts.iter().filter(|chart| chart.section == section).collect();
@@ -58,19 +72,8 @@ fn drawings(pictures: &[Picture]) -> String {
         return String::new();
     }
     let one = |picture: &Picture| {
-        let report = &picture.report;
-        format!(
-            "![Mesh of {0}](charts/{1}.png)\n*`{0}` with `{2}`, t = {3}, c_b = {4}: {5} triangles, smallest angle {6}, \
-             mean smallest angle {7}.*\n\n",
-            report.domain,
-            picture.name,
-            report.spacing,
-            parameter(report.t),
-            parameter(report.c_b),
-            report.statistics.triangles,
-            degrees(report.statistics.min_angle_deg),
-            degrees(report.statistics.mean_min_angle_deg)
-        )
+        let Picture { name, title, caption } = picture;
+        format!("![{title}](charts/{name}.png)\n*{caption}.*\n\n")
     };
     "## Meshes\n\nMade again from their rows, bit for bit by their fingerprints.\n\n".to_string()
         + &pictures.iter().map(one).collect::<String>()
@@ -93,7 +96,14 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
         sections::certificate_finding(rows),
         sections::time_finding(rows),
     ];
-    lines.into_iter().flatten().map(|line| format!("* {line}\n")).collect()
+    let compared = duels::duel_findings(rows).into_iter();
+    let claims = [claims::seam_finding(rows), claims::sampling_finding(rows)];
+    let lines = lines
+        .into_iter()
+        .flatten()
+        .chain(compared)
+        .chain(claims.into_iter().flatten());
+    lines.map(|line| format!("* {line}\n")).collect()
 }
 
 fn what_was_run(rows: &[Row], name: &str) -> String {
@@ -110,6 +120,11 @@ fn what_was_run(rows: &[Row], name: &str) -> String {
     let groups = first_seen(rows.iter().map(|row| row.group.as_str()));
     let mut by_group: Vec<_> = groups.iter().map(|group| line(group, &of_group(rows, group))).collect();
     by_group.push(line("all", &rows.iter().collect::<Vec<_>>()));
+    let meshers = first_seen(rows.iter().map(|row| row.cell.mesher.as_str()));
+    let by_mesher = meshers.iter().map(|mesher| {
+        let own: Vec<&Row> = rows.iter().filter(|row| row.cell.mesher == *mesher).collect();
+        line(mesher, &own)
+    });
     let domains = first_seen(rows.iter().map(|row| row.cell.domain.as_str()));
     let by_domain = domains.iter().map(|domain| {
         let own: Vec<&Row> = rows.iter().filter(|row| row.cell.domain == *domain).collect();
@@ -117,6 +132,9 @@ fn what_was_run(rows: &[Row], name: &str) -> String {
     });
     let mut text = String::from("## What was run\n\n") + &provenance(rows, name);
     text += &table(&head("group of cells"), &by_group);
+    if meshers.len() > 1 {
+        text += &table(&head("mesher"), &by_mesher.collect::<Vec<_>>());
+    }
     text += &table(&head("domain"), &by_domain.collect::<Vec<_>>());
     for (title, grid) in grids(rows) {
         let values = |values: &[f64]| {
@@ -125,7 +143,7 @@ fn what_was_run(rows: &[Row], name: &str) -> String {
         };
         let meant = meaning(&title, &grid.rows);
         let (ts, c_bs) = (values(&grid.ts), values(&grid.c_bs));
-        text += &format!("Grid with spacing `{title}`{meant} over t = {ts}; c_b = {c_bs}.\n\n");
+        text += &format!("Biting's grid with spacing `{title}`{meant} over t = {ts}; c_b = {c_bs}.\n\n");
     }
     for (title, rows) in by_spacing(&of_group(rows, "orders")) {
         let meant = meaning(&title, &rows);

@@ -1,6 +1,6 @@
 //! The parts of the page that answer a question each: a finding in one line, and tables.
 
-use super::findings::{OrderFinding, broken_checks, claims, fewest, grids, of_group, order_findings, slopes, spread};
+use super::findings::{OrderFinding, broken_checks, claims, fewest, grids, order_findings, ours, slopes, spread};
 use super::markdown::{degrees, number, parameter, table};
 use super::page::MOST_LINES;
 use crate::experiment::record::{Report, Row};
@@ -137,7 +137,7 @@ fn fewest_table(pairs: &[Pair], title: &str) -> String {
 
 /// The order with the largest median of the mean smallest angle on each spacing, and what it costs.
 pub(super) fn order_finding(rows: &[Row]) -> Option<String> {
-    let findings = order_findings(&of_group(rows, "orders"));
+    let findings = order_findings(&ours(rows, "orders"));
     let spacings = crate::experiment::summary::first_seen(findings.iter().map(|finding| finding.spacing.as_str()));
     let told: Vec<String> = spacings
         .into_iter()
@@ -180,7 +180,7 @@ fn best_order(findings: &[OrderFinding], spacing: &str) -> Option<String> {
 
 /// Medians of each order and spacing, and where the order is best.
 pub(super) fn orders(rows: &[Row]) -> String {
-    let findings = order_findings(&of_group(rows, "orders"));
+    let findings = order_findings(&ours(rows, "orders"));
     if findings.is_empty() {
         return String::new();
     }
@@ -208,7 +208,7 @@ pub(super) fn orders(rows: &[Row]) -> String {
             finding.best_smallest_on.join(", "),
         ]
     };
-    let alone = of_group(rows, "orders").iter().all(|row| row.cell.timed);
+    let alone = ours(rows, "orders").iter().all(|row| row.cell.timed);
     let caution = if alone {
         ""
     } else {
@@ -243,8 +243,8 @@ pub(super) fn time(rows: &[Row]) -> String {
     if slopes.is_empty() {
         return String::new();
     }
-    let timed: Vec<&Report> = of_group(rows, "time").into_iter().filter_map(measured).collect();
-    let spreads = of_group(rows, "time").into_iter().filter_map(|row| {
+    let timed: Vec<&Report> = ours(rows, "time").into_iter().filter_map(measured).collect();
+    let spreads = ours(rows, "time").into_iter().filter_map(|row| {
         let spread = spread(row.samples.clone())?;
         Some((spread.most - spread.least) / spread.median)
     });
@@ -292,6 +292,7 @@ pub(super) fn certificate(rows: &[Row]) -> String {
     };
     let lines = tallies.iter().map(|tally| {
         vec![
+            tally.mesher.clone(),
             tally.claim.clone(),
             tally.lemma.clone(),
             of(tally.guaranteed),
@@ -303,16 +304,17 @@ pub(super) fn certificate(rows: &[Row]) -> String {
          where it is only measured.\n\n"
             .to_string();
     text += &table(
-        &["claim", "paper", "held where guaranteed", "held elsewhere"],
+        &["mesher", "claim", "paper", "held where guaranteed", "held elsewhere"],
         &lines.collect::<Vec<_>>(),
     );
     for (applies, title) in [
         (true, "Guaranteed checks that failed"),
-        (false, "Bounds broken where a hypothesis fails"),
+        (false, "Bounds that biting broke where a hypothesis fails"),
     ] {
         let lines = broken_checks(rows, applies);
         text += &format!("### {title}: {}\n\n", lines.len());
         let head = [
+            "mesher",
             "domain",
             "spacing",
             "t",

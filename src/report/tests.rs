@@ -1,5 +1,7 @@
 //! Findings against numbers worked out by hand, and the page as files.
 
+mod rivals;
+
 use super::findings::{broken_checks, claims, fewest, margins, of_group, order_findings, slopes, tally};
 use super::fixture::{lines, measured, row, sweep};
 use super::{ReportError, page, sections, write};
@@ -130,7 +132,7 @@ fn a_broken_bound_is_listed_with_its_place() {
     assert_eq!((angle.guaranteed, angle.measured), ((5, 4), (0, 0)));
     let broken = broken_checks(&rows, true);
     assert_eq!(broken.len(), 1);
-    assert_eq!(broken[0][0], "c");
+    assert_eq!(broken[0][1], "c");
     assert!(broken[0].contains(&"(0.250, 0.750)".to_string()) && broken[0].contains(&"36.00°".to_string()));
     assert!(broken_checks(&rows, false).is_empty());
     let finding = sections::certificate_finding(&rows).unwrap();

@@ -170,3 +170,45 @@ fn broken_expectations_and_empty_results_have_their_status() {
         "{row}"
     );
 }
+
+#[test]
+fn meshes_of_equal_count_are_searched_for() {
+    let folder = folder();
+    let plan = r#"
+        question = "How many?"
+        [expect]
+        certificate_holds = true
+        unmeshed_share = 0.0
+        [[group]]
+        name = "count"
+        domains = ["plate-hole", "l-shape"]
+        spacings = ["lfs"]
+        methods = [{ mesher = "biting" }, { mesher = "biting", params = { order = "fifo" } }]
+        equal_triangles = 3000
+        t = [0.2]
+        c_b = [0.8]
+    "#;
+    fs::write(folder.path().join("try.toml"), plan).expect("written");
+    run(folder.path(), &["sweep", "try.toml"], 0);
+    let first = rows(&rows_file(folder.path()));
+    assert_eq!(first.len(), 4);
+    for row in &first {
+        let number = |place: &str| row.pointer(place).and_then(Value::as_f64).expect("a number");
+        assert!((number("/report/triangles") / 3000.0 - 1.0).abs() <= 0.02, "{row}");
+        let tries = row["tries"].as_array().expect("tries");
+        let last = tries.last().expect("a try");
+        assert_eq!(last["triangles"], row["report"]["triangles"]);
+        assert_eq!(last["c_b"], row["report"]["c_b"]);
+        assert!(
+            (number("/report/t") / number("/report/c_b") - 0.25).abs() < 1e-12,
+            "the spacing stays"
+        );
+        assert!((number("/report/alpha") - 0.25).abs() < 1e-12);
+    }
+    run(folder.path(), &["sweep", "try.toml", "--fresh"], 0);
+    assert_eq!(
+        rows(&rows_file(folder.path())),
+        first,
+        "nothing in the search is random"
+    );
+}

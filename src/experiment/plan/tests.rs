@@ -61,6 +61,27 @@ fn quick_is_a_part_of_the_whole() {
 }
 
 #[test]
+fn several_meshers_stand_in_one_group() {
+    let methods = r#"methods = [
+        { mesher = "biting" },
+        { mesher = "another", params = { complete = true, oversample = 4 } },
+    ]
+    equal_triangles = 20_000"#;
+    let plan = read(&PLAN.replacen("mesher = \"biting\"", methods, 1)).expect("a plan");
+    let cells = plan.cells().expect("cells");
+    assert_eq!(cells.len(), 33);
+    assert_eq!(
+        cells[4].key,
+        "grid/unit-square/lfs/another,complete=true,oversample=4/t=0.25/c_b=0.5/triangles=20000"
+    );
+    assert_eq!(
+        (cells[0].cell.triangles, cells[32].cell.triangles),
+        (Some(20_000), None)
+    );
+    assert_eq!(cells[4].cell.scaled_to(1.0).t, 0.5);
+}
+
+#[test]
 fn mistakes_are_named_with_file_and_place() {
     for (from, to, expected) in [
         (
@@ -74,6 +95,12 @@ fn mistakes_are_named_with_file_and_place() {
         ("timed = true", "timd = true", "line 25"),
         ("question", "qestion", "line 2"),
         ("timed = true", "timed = true\nrepeats = 0", "at least 1"),
+        ("mesher = \"biting\"", "", "say `mesher`"),
+        (
+            "mesher = \"biting\"",
+            "mesher = \"biting\"\nmethods = [{ mesher = \"biting\" }]",
+            "or else `methods`",
+        ),
     ] {
         let message = read(&PLAN.replacen(from, to, 1)).expect_err(to).to_string();
         assert!(

@@ -1,0 +1,180 @@
+//! Groups of a plan and the cells they stand for.
+
+use super::{CellBudget, Number, PlannedCell};
+use crate::experiment::record::Cell;
+use crate::meshers::Parameters;
+use serde::Deserialize;
+
+/// A group: every combination of its lists is a cell.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Group {
+    /// Its name in the rows; the charts know `grid`, `orders` and `time`.
+    pub name: String,
+    /// Gallery names or files.
+    pub domains: Vec<String>,
+    /// Spacings before cap and limiting.
+    pub spacings: Vec<String>,
+    /// Name in `MESHERS`, where the group has one mesher alone.
+    #[serde(default)]
+    mesher: Option<String>,
+    /// Its parameters that differ from the defaults, one table a variant.
+    #[serde(default)]
+    params: Option<Vec<Parameters>>,
+    /// Meshers with their parameters, in place of `mesher` and `params`.
+    #[serde(default)]
+    methods: Option<Vec<Method>>,
+    t: Vec<Number>,
+    c_b: Vec<Number>,
+    #[serde(default = "seed_zero")]
+    seeds: Vec<u64>,
+    #[serde(default = "yes")]
+    lfs_cap: bool,
+    /// Triangles every mesh shall have: c_b is scaled until it has, each c_b of the list being where that starts.
+    #[serde(default)]
+    equal_triangles: Option<u64>,
+    #[serde(default)]
+    timed: bool,
+    #[serde(default = "three")]
+    repeats: usize,
+    /// Triangles, where the group needs another budget than the plan's.
+    #[serde(default)]
+    budget: Option<CellBudget>,
+    #[serde(default)]
+    quick: Option<Quick>,
+}
+
+/// The lists of a group that `--quick` replaces.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Quick {
+    domains: Option<Vec<String>>,
+    spacings: Option<Vec<String>>,
+    params: Option<Vec<Parameters>>,
+    methods: Option<Vec<Method>>,
+    t: Option<Vec<Number>>,
+    c_b: Option<Vec<Number>>,
+    equal_triangles: Option<u64>,
+    repeats: Option<usize>,
+}
+
+/// A mesher with parameters.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Method {
+    mesher: String,
+    /// Those that differ from the mesher's defaults.
+    #[serde(default)]
+    params: Parameters,
+}
+
+fn seed_zero() -> Vec<u64> {
+    vec![0]
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn three() -> usize {
+    3
+}
+
+impl Group {
+    /// The part that `--quick` runs, if there is one.
+    pub(super) fn into_quick(mut self) -> Option<Self> {
+        let quick = self.quick.take()?;
+        self.domains = quick.domains.unwrap_or(self.domains);
+        self.spacings = quick.spacings.unwrap_or(self.spacings);
+        self.params = quick.params.or(self.params);
+        self.methods = quick.methods.or(self.methods);
+        self.equal_triangles = quick.equal_triangles.or(self.equal_triangles);
+        self.t = quick.t.unwrap_or(self.t);
+        self.c_b = quick.c_b.unwrap_or(self.c_b);
+        self.repeats = quick.repeats.unwrap_or(self.repeats);
+        Some(self)
+    }
+
+    /// The group's cells, domain by domain, within a domain spacing by spacing, within a spacing method by method.
+    pub(super) fn cells(&self, budget: CellBudget) -> Result<Vec<PlannedCell>, String> {
+        if self.timed && self.repeats == 0 {
+            return Err("`repeats` must be at least 1".into());
+        }
+        let methods = self.methods()?;
+        let asked = |domain: &String, spacing: &String, method: &Method| {
+            let mut cells = Vec::new();
+            for &seed in &self.seeds {
+                for (t, c_b) in self.t.iter().flat_map(|t| self.c_b.iter().map(move |c_b| (t, c_b))) {
+                    cells.push(Cell {
+                        domain: domain.clone(),
+                        mesher: method.mesher.clone(),
+                        params: method.params.clone(),
+                        spacing: spacing.clone(),
+                        t: t.get(),
+                        c_b: c_b.get(),
+                        seed,
+                        lfs_cap: self.lfs_cap,
+                        triangles: self.equal_triangles,
+                        timed: self.timed,
+                    });
+                }
+            }
+            cells
+        };
+        let planned = |cell: Cell| PlannedCell {
+            key: key(&self.name, &cell),
+            group: self.name.clone(),
+            budget: self.budget.unwrap_or(budget),
+            repeats: if self.timed { self.repeats } else { 1 },
+            cell,
+        };
+        let mut cells = Vec::new();
+        for domain in &self.domains {
+            for spacing in &self.spacings {
+                let own = methods.iter().flat_map(|method| asked(domain, spacing, method));
+                cells.extend(own.map(planned));
+            }
+        }
+        Ok(cells)
+    }
+
+    /// What the group says of meshers, in one form.
+    fn methods(&self) -> Result<Vec<Method>, String> {
+        match (&self.mesher, &self.methods, &self.params) {
+            (Some(mesher), None, params) => {
+                let params = params.clone().unwrap_or_else(|| vec![Parameters::new()]);
+                let method = |params| Method {
+                    mesher: mesher.clone(),
+                    params,
+                };
+                Ok(params.into_iter().map(method).collect())
+            }
+            (None, Some(methods), None) => Ok(methods.clone()),
+            _ => Err("say `mesher`, with `params` where it needs some, or else `methods`".into()),
+        }
+    }
+}
+
+/// The key of a row: everything the cell asks for, readable.
+fn key(group: &str, cell: &Cell) -> String {
+    let mut key = format!("{group}/{}/{}/{}", cell.domain, cell.spacing, cell.mesher);
+    for (name, value) in &cell.params {
+        let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        key.push_str(&format!(",{name}={value}"));
+    }
+    key.push_str(&format!("/t={}/c_b={}", cell.t, cell.c_b));
+    for (text, differs) in [
+        (format!("/seed={}", cell.seed), cell.seed != 0),
+        ("/no-lfs-cap".into(), !cell.lfs_cap),
+        (
+            format!("/triangles={}", cell.triangles.unwrap_or_default()),
+            cell.triangles.is_some(),
+        ),
+        ("/timed".into(), cell.timed),
+    ] {
+        if differs {
+            key.push_str(&text);
+        }
+    }
+    key
+}
