@@ -12,6 +12,10 @@ mod refinable;
 
 pub use refinable::{Around, Cavity, Location, Refinable, following};
 
+mod cavities;
+
+pub use cavities::triangulate_cavities;
+
 use crate::domain::{Domain, Face};
 use crate::geometry::{DVec2, predicates};
 use crate::mesh::{Mesh, Piece};

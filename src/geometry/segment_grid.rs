@@ -192,7 +192,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
         #[test]
         fn a_query_misses_none_that_a_loop_finds(
-            segments in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64, -12.0..0.0f64, 0.0..6.28f64), 1..150),
+            segments in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64, -12.0..0.0f64, 0.0..std::f64::consts::TAU), 1..150),
             removed in prop::collection::vec(any::<bool>(), 150),
             corner in (-1.0..1.0f64, -1.0..1.0f64),
             size in -10.0..1.0f64,

@@ -5,6 +5,7 @@ use crate::mesh::Mesh;
 use crate::spacing::Spacing;
 use std::time::{Duration, Instant};
 
+pub mod advancing_front;
 pub mod biting;
 mod budget;
 pub mod delaunay_refinement;
@@ -103,7 +104,7 @@ pub struct Parameter {
 }
 
 /// Every mesher there is.
-pub static MESHERS: &[Entry] = &[biting::ENTRY, delaunay_refinement::ENTRY];
+pub static MESHERS: &[Entry] = &[biting::ENTRY, advancing_front::ENTRY, delaunay_refinement::ENTRY];
 
 /// The mesher called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
