@@ -62,7 +62,7 @@ impl Dots {
         let names: Vec<String> = self.names.iter().rev().cloned().collect();
         let values = || column.dots.iter().flat_map(|dot| dot.values.iter().copied());
         let x = if column.is_log {
-            Axis::log(&column.label, log_span(values()))
+            Axis::log(&column.label, log_span(values())).sparse()
         } else {
             Axis::linear(&column.label, span(values()), 4)
         };

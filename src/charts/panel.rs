@@ -77,6 +77,15 @@ impl Axis {
         }
     }
 
+    /// With powers of ten alone named, where there are two of them: for narrow panels.
+    pub(super) fn sparse(mut self) -> Self {
+        let is_power = |value: f64| (value.log10() - value.log10().round()).abs() < 1e-9;
+        if self.ticks.iter().filter(|tick| is_power(tick.0)).count() > 1 {
+            self.ticks.retain(|tick| is_power(tick.0));
+        }
+        self
+    }
+
     /// The ticks and their names.
     pub(super) fn named_ticks(self) -> Vec<(f64, String)> {
         self.ticks
@@ -280,6 +289,8 @@ mod tests {
             ["10⁻⁵", "10⁻⁴", "0.001", "0.01", "0.1", "1"]
         );
         assert_eq!(names(Axis::log("", 9e3..1.1e7)), ["10000", "10⁵", "10⁶", "10⁷"]);
+        assert_eq!(names(Axis::log("", 0.9..22.0).sparse()), ["1", "10"]);
+        assert_eq!(names(Axis::log("", 1.5..6.0).sparse()), ["2", "5"]);
     }
 
     #[test]

@@ -6,22 +6,22 @@ use super::legend::{Entry, Key, legend_row};
 use super::panel::{Axis, Panel, span};
 use super::size::Measure;
 use super::style::{self, Marker};
-use crate::experiment::contest::Contest;
+use crate::experiment::contest::{Contest, Method};
 use crate::experiment::record::{Outcome, Report, Row};
 use crate::experiment::summary::{distinct, measured};
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
 
 const SMALLEST: Measure = Measure {
-    label: "smallest angle (°)",
+    label: "smallest (°)",
     value: |report| report.statistics.min_angle_free_deg.unwrap_or(f64::NAN),
 };
 const MEAN: Measure = Measure {
-    label: "mean smallest angle (°)",
+    label: "mean (°)",
     value: |report| report.statistics.mean_min_angle_deg,
 };
 const EFFICIENCY: Measure = Measure {
-    label: "size efficiency",
+    label: "efficiency",
     value: |report| report.size_efficiency,
 };
 const BETA: Measure = Measure {
@@ -29,7 +29,7 @@ const BETA: Measure = Measure {
     value: |report| report.statistics.beta.unwrap_or(f64::NAN),
 };
 const SECONDS: Measure = Measure {
-    label: "µs per triangle",
+    label: "µs/triangle",
     value: |report| 1e6 * report.seconds.total / report.statistics.triangles as f64,
 };
 
@@ -44,13 +44,17 @@ fn ending(row: Option<&Row>) -> &'static str {
     }
 }
 
-/// The names of methods; where some tasks were not measured, with how many were.
+/// The names of methods, of variants what makes them differ; where some tasks were not measured, with how many were.
 fn names(contest: &Contest) -> Vec<String> {
+    let leads = contest.leads();
     let name = |k: usize| {
-        let (label, asked) = (&contest.methods[k].label, contest.rows(k).count());
+        let Method { label, mesher, .. } = &contest.methods[k];
+        let differing = label.strip_prefix(mesher.as_str()).map(str::trim_start);
+        let label = differing.filter(|_| !leads.contains(&k)).unwrap_or(label).to_string();
+        let asked = contest.rows(k).count();
         let done = contest.count(k, Outcome::Measured);
         if done == asked {
-            label.clone()
+            label
         } else {
             format!("{label} ({done} of {asked})")
         }
@@ -149,11 +153,11 @@ pub fn domains(contest: &Contest, methods: &[usize], stem: &Path) -> Result<(), 
 pub fn seams(rows: &[(&Row, String)], stem: &Path) -> Result<(), ChartError> {
     type Of = fn(&crate::quality::Angles) -> f64;
     let columns: [(&str, Of); 3] = [
-        ("mean smallest angle (°)", |angles| angles.mean_deg),
+        ("mean (°)", |angles| angles.mean_deg),
         ("5th percentile (°)", |angles| angles.p05_deg),
         ("triangles under 30° (%)", |angles| 100.0 * angles.share_under_30),
     ];
-    let marker = |row: &Row| style::method(&crate::experiment::contest::Method::of(row));
+    let marker = |row: &Row| style::method(&Method::of(row));
     let column = |(label, value): (&str, Of)| {
         let mut dots = Vec::new();
         for (line, (row, _)) in rows.iter().enumerate() {

@@ -40,7 +40,7 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
             Section::Fewest,
         ),
         ("Orders of bites", sections::orders(rows), Section::Orders),
-        ("Time", sections::time(rows), Section::Time),
+        ("Time of biting, step by step", sections::time(rows), Section::Time),
         ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
         (
             "Where biting wins, where it loses, and why",

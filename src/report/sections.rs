@@ -16,7 +16,7 @@ pub(super) fn size_finding(rows: &[Row]) -> Option<String> {
         of(|r| r.size_efficiency)?,
     );
     Some(format!(
-        "**Size**, with spacing `{title}`. Triangles/∫dA/f² lie between {} and {}, times (√3/4)c_b² between {} and {} \
+        "**Size** of bitten meshes, with spacing `{title}`. Triangles/∫dA/f² lie between {} and {}, times (√3/4)c_b² between {} and {} \
          (median {}). Triangles/∫dA/lfs² lie between {} and {}.",
         number(by_f.least),
         number(by_f.most),
@@ -228,7 +228,7 @@ pub(super) fn time_finding(rows: &[Row]) -> Option<String> {
     let triangulation = slopes.iter().find(|step| step.name.contains("triangulation"));
     let beside = triangulation.map(|step| format!(", that of the triangulation within it {}", number(step.slope)));
     Some(format!(
-        "**Time** grows with triangles to the power {}{}; from {} to {} triangles, {} µs per triangle in the median.",
+        "**Time** of biting grows with triangles to the power {}{}; from {} to {} triangles, {} µs per triangle in the median.",
         number(growth),
         beside.unwrap_or_default(),
         number(whole.triangles.0),

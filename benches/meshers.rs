@@ -1,0 +1,106 @@
+//! Every mesher of the list on the same tasks in one run: read the ratios, not the times.
+//!
+//! Two tasks on the unit square, each asked for so that biting makes about 10⁵ triangles: a uniform spacing and
+//! f = s (1 + ½ sin 20x sin 20y). Throughput is in the triangles of the mesher at hand; before the timed runs the ratios to
+//! the first of the list are printed, for the whole mesh and a triangle, as medians of interleaved runs.
+
+use biting::domain::{Domain, gallery};
+use biting::experiment::summary::median;
+use biting::geometry::DVec2;
+use biting::meshers::{Budget, Entry, MESHERS, Mesher, Parameters, Request, Trace};
+use biting::spacing::{Spacing, Uniform};
+use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
+use std::time::{Duration, Instant};
+
+/// Interleaved runs whose median the printed ratios take.
+const RUNS: usize = 5;
+
+/// f = scale (1 + ½ sin 20x sin 20y); |∇f| ≤ 10 scale.
+struct Waves {
+    scale: f64,
+}
+
+impl Spacing for Waves {
+    fn at(&self, x: DVec2) -> f64 {
+        self.scale * (1.0 + 0.5 * (20.0 * x.x).sin() * (20.0 * x.y).sin())
+    }
+
+    fn lipschitz(&self) -> f64 {
+        10.0 * self.scale
+    }
+}
+
+const REQUEST: Request = Request {
+    c_b: 1.0,
+    seed: 0,
+    threads: 1,
+    budget: Budget {
+        max_vertices: None,
+        max_seconds: None,
+        max_memory: None,
+    },
+};
+
+fn meshers() -> Vec<(&'static Entry, Box<dyn Mesher>)> {
+    let made = |entry: &'static Entry| (entry, (entry.make)(&Parameters::new()).expect("defaults are valid"));
+    MESHERS.iter().map(made).collect()
+}
+
+fn triangles(mesher: &dyn Mesher, domain: &Domain, spacing: &dyn Spacing) -> usize {
+    let mesh = mesher.mesh(domain, spacing, &REQUEST, &mut Trace::default());
+    mesh.expect("a mesh").triangles.len()
+}
+
+fn ratios(name: &str, domain: &Domain, spacing: &dyn Spacing) {
+    let all = meshers();
+    let mut samples = vec![Vec::new(); all.len()];
+    let mut made = vec![0; all.len()];
+    for _ in 0..RUNS {
+        for (k, (_, mesher)) in all.iter().enumerate() {
+            let start = Instant::now();
+            made[k] = triangles(&**mesher, domain, spacing);
+            samples[k].push(start.elapsed().as_secs_f64());
+        }
+    }
+    let seconds: Vec<f64> = samples.into_iter().map(|own| median(own).unwrap_or(f64::NAN)).collect();
+    for (k, (entry, _)) in all.iter().enumerate() {
+        let each = |k: usize| seconds[k] / made[k] as f64;
+        println!(
+            "{name} {}: {} triangles, {:.4} s, {:.2} times the first's seconds, {:.2} a triangle",
+            entry.name,
+            made[k],
+            seconds[k],
+            seconds[k] / seconds[0],
+            each(k) / each(0)
+        );
+    }
+}
+
+fn all_meshers(criterion: &mut Criterion) {
+    let domain = gallery::domain("unit-square")
+        .expect("a gallery name")
+        .expect("a valid domain");
+    let tasks: [(&str, Box<dyn Spacing>); 2] = [
+        ("uniform", Box::new(Uniform(0.0048))),
+        ("graded", Box::new(Waves { scale: 0.0051 })),
+    ];
+    for (name, spacing) in tasks {
+        ratios(name, &domain, &*spacing);
+        let mut group = criterion.benchmark_group(name);
+        group
+            .sample_size(10)
+            .sampling_mode(SamplingMode::Flat)
+            .warm_up_time(Duration::from_millis(500));
+        for (entry, mesher) in meshers() {
+            let made = triangles(&*mesher, &domain, &*spacing);
+            group.throughput(Throughput::Elements(made as u64));
+            group.bench_function(entry.name, |bencher| {
+                bencher.iter(|| triangles(&*mesher, &domain, &*spacing));
+            });
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, all_meshers);
+criterion_main!(benches);
