@@ -122,10 +122,15 @@ impl DiscGrid {
     /// Collects into `near` the discs whose interior meets that of `B(centre, radius)`. The query disc itself must
     /// fit the Lipschitz condition with those in the grid.
     pub fn meeting(&self, centre: DVec2, radius: f64, near: &mut Vec<Near>) {
+        self.around(centre, radius, radius, near);
+    }
+
+    /// Collects into `near` the discs whose interior meets that of `B(centre, reach)`, where `radius` is the radius that a
+    /// disc at `centre` would have. Needs t · `reach` < `radius`, and takes longer the nearer they are.
+    pub fn around(&self, centre: DVec2, radius: f64, reach: f64, near: &mut Vec<Near>) {
         near.clear();
-        let reach = ROOM * 2.0 * radius / (1.0 - self.t);
         self.visit(centre, radius, reach, |candidate| {
-            let sum = radius + candidate.radius;
+            let sum = reach + candidate.radius;
             if candidate.distance_squared < sum * sum {
                 near.push(candidate);
             }
@@ -136,8 +141,7 @@ impl DiscGrid {
     /// `radius` is the radius that a disc at `point` would have.
     pub fn covering(&self, point: DVec2, radius: f64, tolerance: f64, near: &mut Vec<Near>) {
         near.clear();
-        let reach = ROOM * radius / (1.0 - self.t);
-        self.visit(point, radius, reach, |candidate| {
+        self.visit(point, radius, 0.0, |candidate| {
             let shrunk = candidate.radius * (1.0 - tolerance);
             if candidate.distance_squared < shrunk * shrunk {
                 near.push(candidate);
@@ -145,17 +149,21 @@ impl DiscGrid {
         });
     }
 
-    /// Calls `visit` for every disc that has its centre within `reach` of `centre`, a radius within the Lipschitz
-    /// ratio of `radius`, and a chance to meet `B(centre, radius)`, in an order that depends on the discs alone.
-    fn visit(&self, centre: DVec2, radius: f64, reach: f64, mut visit: impl FnMut(Near)) {
-        let ratio = ROOM * (1.0 + self.t) / (1.0 - self.t);
-        for level in level_of(radius / ratio)..=level_of(radius * ratio) {
+    /// Calls `visit` for every disc that may meet `B(centre, extent)`, in an order that depends on the discs alone.
+    ///
+    /// A disc B(y, r) that does has ‖y − centre‖ < extent + r, and |r − radius| ≤ t ‖y − centre‖: so r lies between
+    /// (radius − t · extent) / (1 + t) and (radius + t · extent) / (1 − t), and y within (radius + extent) / (1 − t).
+    fn visit(&self, centre: DVec2, radius: f64, extent: f64, mut visit: impl FnMut(Near)) {
+        let smallest = (radius - self.t * extent) / ((1.0 + self.t) * ROOM);
+        let largest = ROOM * (radius + self.t * extent) / (1.0 - self.t);
+        let reach = ROOM * (radius + extent) / (1.0 - self.t);
+        for level in level_of(smallest)..=level_of(largest) {
             if self.level_sizes[(level - LOWEST_LEVEL) as usize] == 0 {
                 continue;
             }
             let inverse = inverse_cell_size(level);
             // Radii of a level are below its cell size.
-            let reach = reach.min(radius + 1.0 / inverse);
+            let reach = reach.min(extent + 1.0 / inverse);
             let (low, high) = (centre - reach, centre + reach);
             let columns = (cell_of(low.x, inverse), cell_of(high.x, inverse));
             let rows = (cell_of(low.y, inverse), cell_of(high.y, inverse));
@@ -238,6 +246,7 @@ mod tests {
             centres in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 1..200),
             query in (-1.0..1.0f64, -1.0..1.0f64),
             t in 0.0..0.9f64,
+            share in 0.0..3.0f64,
         ) {
             let discs: Vec<Disc> = centres.iter().map(|&c| disc_at(c.into(), t)).collect();
             let mut grid = DiscGrid::new(t);
@@ -252,6 +261,9 @@ mod tests {
             prop_assert_eq!(sorted(&near), loop_over(&|d| d.centre.distance(query.centre) < d.radius + query.radius));
             grid.covering(query.centre, query.radius, 0.0, &mut near);
             prop_assert_eq!(sorted(&near), loop_over(&|d| d.centre.distance(query.centre) < d.radius));
+            let reach = query.radius * share.min(0.9 / t);
+            grid.around(query.centre, query.radius, reach, &mut near);
+            prop_assert_eq!(sorted(&near), loop_over(&|d| d.centre.distance(query.centre) < d.radius + reach));
         }
     }
 }
