@@ -68,4 +68,18 @@ impl Rect {
     pub fn contains(self, x: DVec2) -> bool {
         x.cmpge(self.min).all() && x.cmple(self.max).all()
     }
+
+    /// The four quarters: lower left, lower right, upper left, upper right.
+    pub fn quarters(self) -> [Self; 4] {
+        let centre = self.centre();
+        let columns = [(self.min.x, centre.x), (centre.x, self.max.x)];
+        let rows = [(self.min.y, centre.y), (centre.y, self.max.y)];
+        [0, 1, 2, 3].map(|quarter| {
+            let ((left, right), (bottom, top)) = (columns[quarter & 1], rows[quarter >> 1]);
+            Self {
+                min: DVec2::new(left, bottom),
+                max: DVec2::new(right, top),
+            }
+        })
+    }
 }

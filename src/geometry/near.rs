@@ -200,6 +200,18 @@ impl DiscGrid {
     }
 }
 
+/// The two points, relative to the centre of a circle of `radius`, where it crosses the circle `other`; the same point
+/// twice where rounding makes them touch.
+pub fn circle_intersections(radius: f64, other: &Near) -> [DVec2; 2] {
+    let distance = other.distance_squared.sqrt();
+    let along = (other.distance_squared + radius * radius - other.radius * other.radius) / (2.0 * distance);
+    let across = (radius * radius - along * along).max(0.0).sqrt();
+    let direction = other.offset / distance;
+    let foot = direction * along;
+    let offset = direction.perp() * across;
+    [foot - offset, foot + offset]
+}
+
 /// The binary exponent of a positive normal number: 2^level ≤ radius < 2^(level + 1).
 pub(super) fn level_of(radius: f64) -> i32 {
     ((radius.to_bits() >> 52) as i32 & 0x7ff) - 1023

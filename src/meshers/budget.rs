@@ -35,15 +35,6 @@ impl Monitor {
 
     /// Called with the number of vertices so far, and where and at which size the next one goes.
     pub fn placed(&self, vertices: usize, at: DVec2, size: f64) -> Result<(), MeshError> {
-        let stop = |budget: String| {
-            Err(MeshError::Budget {
-                budget,
-                vertices,
-                x: at.x,
-                y: at.y,
-                advice: format!("the target edge length is {size:e} there; ask for larger edges or raise the budget"),
-            })
-        };
         // Every mesh has fewer than 2³² vertices: indices are u32.
         let most = self
             .budget
@@ -51,11 +42,18 @@ impl Monitor {
             .unwrap_or(usize::MAX)
             .min(u32::MAX as usize / 4);
         if vertices > most {
-            return stop(format!("max_vertices = {most}"));
+            return Err(stopped(format!("max_vertices = {most}"), vertices, at, size));
         }
-        if !vertices.is_multiple_of(VERTICES_BETWEEN_LOOKS) {
-            return Ok(());
+        if vertices.is_multiple_of(VERTICES_BETWEEN_LOOKS) {
+            self.look(vertices, at, size)
+        } else {
+            Ok(())
         }
+    }
+
+    /// Looks at clock and memory: for work that takes long without placing vertices. Arguments as for [`Self::placed`].
+    pub fn look(&self, vertices: usize, at: DVec2, size: f64) -> Result<(), MeshError> {
+        let stop = |budget| Err(stopped(budget, vertices, at, size));
         match self.budget {
             Budget {
                 max_seconds: Some(most),
@@ -66,6 +64,16 @@ impl Monitor {
             } if resident_bytes().is_some_and(|bytes| bytes > most) => stop(format!("max_memory = {most} bytes")),
             _ => Ok(()),
         }
+    }
+}
+
+fn stopped(budget: String, vertices: usize, at: DVec2, size: f64) -> MeshError {
+    MeshError::Budget {
+        budget,
+        vertices,
+        x: at.x,
+        y: at.y,
+        advice: format!("the target edge length is {size:e} there; ask for larger edges or raise the budget"),
     }
 }
 

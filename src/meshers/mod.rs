@@ -9,6 +9,7 @@ pub mod advancing_front;
 pub mod biting;
 mod budget;
 pub mod delaunay_refinement;
+pub mod quadtree_mis;
 mod sizing;
 
 pub use budget::Budget;
@@ -104,7 +105,12 @@ pub struct Parameter {
 }
 
 /// Every mesher there is.
-pub static MESHERS: &[Entry] = &[biting::ENTRY, advancing_front::ENTRY, delaunay_refinement::ENTRY];
+pub static MESHERS: &[Entry] = &[
+    biting::ENTRY,
+    quadtree_mis::ENTRY,
+    advancing_front::ENTRY,
+    delaunay_refinement::ENTRY,
+];
 
 /// The mesher called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

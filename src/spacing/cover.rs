@@ -1,6 +1,5 @@
 //! Quadtree cells that meet Ω, and a point of Ω in each.
 
-use super::shortlist::quarters;
 use super::{Spacing, SpacingError};
 use crate::domain::Domain;
 use crate::geometry::segments::meets_box;
@@ -45,7 +44,7 @@ impl Cell {
             let is_met = !crossing.is_empty() || self.crossing.is_empty() || domain.contains(rect.centre());
             is_met.then_some(Self { rect, crossing })
         };
-        quarters(self.rect).into_iter().filter_map(meeting)
+        self.rect.quarters().into_iter().filter_map(meeting)
     }
 
     /// A point of the cell and of Ω: the centre if it will do, else a point of a segment.

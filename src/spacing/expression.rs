@@ -14,7 +14,6 @@ use super::gradient::Gradient;
 use super::grammar::{self, GrammarError};
 use super::interval::Interval;
 use super::program::Program;
-use super::shortlist::quarters;
 use super::{Rect, Spacing};
 use crate::geometry::DVec2;
 use std::cmp::Ordering;
@@ -141,7 +140,7 @@ fn supremum(root: Rect, bound: impl Fn(Rect) -> f64, value: impl Fn(DVec2) -> f6
         if top.bound - reached <= GAP * reached.abs() || age >= BUDGET {
             return top.bound;
         }
-        for cell in quarters(top.cell) {
+        for cell in top.cell.quarters() {
             age += 1;
             // A part is never bounded worse than the whole.
             heap.push(Waiting {

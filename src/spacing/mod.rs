@@ -13,7 +13,7 @@ use crate::geometry::{DVec2, Rect};
 use std::sync::Arc;
 
 mod combine;
-mod cover;
+pub(crate) mod cover;
 mod expression;
 mod features;
 mod gradient;

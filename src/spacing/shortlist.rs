@@ -48,29 +48,6 @@ pub struct Shortlists {
     lists: Vec<u32>,
 }
 
-/// The four quarters of a cell: lower left, lower right, upper left, upper right.
-pub fn quarters(cell: Rect) -> [Rect; 4] {
-    let centre = cell.centre();
-    [
-        Rect {
-            min: cell.min,
-            max: centre,
-        },
-        Rect {
-            min: DVec2::new(centre.x, cell.min.y),
-            max: DVec2::new(cell.max.x, centre.y),
-        },
-        Rect {
-            min: DVec2::new(cell.min.x, centre.y),
-            max: DVec2::new(centre.x, cell.max.y),
-        },
-        Rect {
-            min: centre,
-            max: cell.max,
-        },
-    ]
-}
-
 struct Pending {
     node: u32,
     cell: Rect,
@@ -126,7 +103,7 @@ impl Shortlists {
             let first = tree.nodes.len() as u32;
             tree.nodes[next.node as usize] = Node { first, count: INNER };
             tree.nodes.extend([Node { first: 0, count: 0 }; 4]);
-            for (cell, node) in quarters(next.cell).into_iter().zip(first..) {
+            for (cell, node) in next.cell.quarters().into_iter().zip(first..) {
                 pending.push(Pending::new(features, node, cell, next.depth + 1, &next.list));
             }
         }

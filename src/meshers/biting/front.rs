@@ -13,7 +13,7 @@
 
 use super::order::{Order, Queue, Ticket};
 use crate::domain::Domain;
-use crate::geometry::near::{Disc, DiscGrid, Near};
+use crate::geometry::near::{Disc, DiscGrid, Near, circle_intersections};
 use crate::geometry::{DVec2, tolerance};
 use crate::meshers::sizing::Sizing;
 use crate::meshers::{MeshError, Monitor, Request};
@@ -270,18 +270,6 @@ impl<'a> Front<'a> {
             .push(Ticket { serial, slot: index }, vertex, || spacing.at(point));
         Ok(())
     }
-}
-
-/// The two points, relative to the centre of a circle of `radius`, where it crosses the circle `other`; the same point
-/// twice where rounding makes them touch.
-fn circle_intersections(radius: f64, other: &Near) -> [DVec2; 2] {
-    let distance = other.distance_squared.sqrt();
-    let along = (other.distance_squared + radius * radius - other.radius * other.radius) / (2.0 * distance);
-    let across = (radius * radius - along * along).max(0.0).sqrt();
-    let direction = other.offset / distance;
-    let foot = direction * along;
-    let offset = direction.perp() * across;
-    [foot - offset, foot + offset]
 }
 
 /// Whether a disc of `near` other than the one at `except` covers the point. Discs count as a little smaller than they

@@ -1,0 +1,270 @@
+//! Step 3 in the leaves: the independent set among their samples, tile by tile.
+//!
+//! Two candidates are in conflict where the circle of the one chosen first covers the other. The set is built greedily, in
+//! an [`Order`] within each tile, so it is independent and maximal: what is not chosen is covered by a circle chosen
+//! before. Whether a sample is covered is asked of the few circles that reach into its leaf, looked up once a row of the
+//! leaf, and s is evaluated only for samples that are chosen.
+
+use super::Field;
+use super::balance::{Leaf, Quadtree};
+use super::circles::{Row, rows, samples};
+use super::independent_set::Order;
+use super::tiles::Tile;
+use crate::geometry::near::{Disc, DiscGrid, Near};
+use crate::geometry::{DVec2, tolerance};
+use crate::meshers::MeshError;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
+
+/// The circles that reach into a leaf, and those chosen there.
+pub(super) struct Picker<'a, 'b> {
+    pub field: &'b Field<'a>,
+    tree: &'b Quadtree,
+    circles: &'b mut DiscGrid,
+    /// How many vertices there are besides those in `circles`.
+    elsewhere: usize,
+    pub leaf: Leaf,
+    /// A point of the leaf, which offsets are seen from.
+    pub anchor: DVec2,
+    /// The circles that reach into the leaf, seen from its anchor.
+    pub near: Vec<Near>,
+}
+
+impl<'a, 'b> Picker<'a, 'b> {
+    pub fn new(field: &'b Field<'a>, tree: &'b Quadtree, circles: &'b mut DiscGrid, elsewhere: usize) -> Self {
+        Self {
+            field,
+            tree,
+            circles,
+            elsewhere,
+            leaf: tree.leaves[0],
+            anchor: DVec2::ZERO,
+            near: Vec::new(),
+        }
+    }
+
+    /// Turns to a leaf.
+    pub fn turn_to(&mut self, leaf: u32) {
+        self.leaf = self.tree.leaves[leaf as usize];
+        self.anchor = self.tree.anchor(&self.leaf);
+        let reach = self.tree.reach(&self.leaf);
+        self.circles
+            .around(self.anchor, self.leaf.radius, reach, &mut self.near);
+    }
+
+    /// Whether one circle covers the box of that centre and half width and height.
+    pub fn is_box_covered(&self, centre: DVec2, half: DVec2) -> bool {
+        let centre = centre - self.anchor;
+        self.near.iter().any(|near| {
+            let shrunk = near.radius * (1.0 - tolerance::COVERED);
+            ((near.offset - centre).abs() + half).length_squared() < shrunk * shrunk
+        })
+    }
+
+    /// Whether one circle covers the leaf.
+    pub fn is_leaf_covered(&self) -> bool {
+        self.is_box_covered(self.leaf.centre, DVec2::splat(self.leaf.half))
+    }
+
+    /// Whether a point of the leaf, seen from its anchor, lies in the domain and no circle covers it; the circles of two
+    /// ids do not count.
+    fn is_free(&self, x: DVec2, but: [u32; 2]) -> bool {
+        let covers = |near: &Near| {
+            let shrunk = near.radius * (1.0 - tolerance::COVERED);
+            near.offset.distance_squared(x) < shrunk * shrunk && !but.contains(&near.id)
+        };
+        !self.near.iter().any(covers) && (self.leaf.is_inside() || self.field.domain.contains(self.anchor + x))
+    }
+
+    /// Collects the circles that pass through the square.
+    pub fn circles_through(&self, centre: DVec2, half: f64, found: &mut Vec<Near>) {
+        let centre = centre - self.anchor;
+        found.clear();
+        found.extend(self.near.iter().filter(|near| {
+            let offset = (near.offset - centre).abs();
+            let (nearest, farthest) = ((offset - half).max(DVec2::ZERO).length(), (offset + half).length());
+            nearest <= near.radius && near.radius <= farthest
+        }));
+    }
+
+    /// Chooses the point of the leaf if it lies in the domain and no circle covers it; says whether it did.
+    pub fn pick(&mut self, x: DVec2) -> Result<bool, MeshError> {
+        self.pick_at(x - self.anchor, [NO_CIRCLE; 2])
+    }
+
+    /// [`Self::pick`] of a point seen from the leaf's anchor, where two circles do not count.
+    pub fn pick_at(&mut self, offset: DVec2, but: [u32; 2]) -> Result<bool, MeshError> {
+        if !self.is_free(offset, but) {
+            return Ok(false);
+        }
+        let x = self.anchor + offset;
+        let radius = self.field.sizing.at(x)?;
+        self.field
+            .monitor
+            .placed(self.elsewhere + self.circles.len() + 1, x, radius)?;
+        let id = self.circles.insert(Disc { centre: x, radius });
+        let offset = x - self.anchor;
+        self.near.push(Near {
+            id,
+            offset,
+            distance_squared: offset.length_squared(),
+            radius,
+        });
+        Ok(true)
+    }
+}
+
+/// No circle has this id.
+const NO_CIRCLE: u32 = u32::MAX;
+
+/// A maximal independent set of the samples of a tile, given the circles that reach into it, to which it is added.
+/// Returns how many samples were looked at.
+pub(super) fn interior(
+    field: &Field,
+    tree: &Quadtree,
+    number: usize,
+    tile: &Tile,
+    circles: &mut DiscGrid,
+    elsewhere: usize,
+) -> Result<usize, MeshError> {
+    let first = tree.leaves[tile.leaves[0] as usize];
+    field
+        .monitor
+        .look(elsewhere + circles.len(), first.centre, first.radius)?;
+    let stream = field.seed.wrapping_add((number as u64 + 1).wrapping_mul(STREAM));
+    let mut random = Pcg64::seed_from_u64(stream);
+    let leaf = |number: usize| &tree.leaves[tile.leaves[number] as usize];
+    let mut rows: Vec<Row> = (0..tile.leaves.len())
+        .flat_map(|number| rows(field.mesher, number, leaf(number)))
+        .collect();
+    match field.mesher.order {
+        Order::Insertion => {
+            let place = |row: &Row| (row.centre.y, row.centre.x);
+            rows.sort_by(|one, other| {
+                let (one, other) = (place(one), place(other));
+                one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1))
+            });
+        }
+        Order::Spacing => rows.sort_by(|one, other| leaf(one.leaf).radius.total_cmp(&leaf(other.leaf).radius)),
+        Order::Degree | Order::Random => {}
+    }
+    let mut walk = Walk {
+        picker: Picker::new(field, tree, circles, elsewhere),
+        leaves: &tile.leaves,
+        is_done: vec![false; tile.leaves.len()],
+    };
+    if matches!(field.mesher.order, Order::Insertion | Order::Spacing) {
+        return walk.row_by_row(&rows, &mut random);
+    }
+    let mut free = walk.uncovered(&rows, &mut random);
+    if field.mesher.order == Order::Random {
+        free.shuffle(&mut random);
+    } else {
+        let mut ranked: Vec<(u32, Sample)> = degrees(field, &free)?.into_iter().zip(free).collect();
+        ranked.sort_by_key(|(degree, _)| *degree);
+        free = ranked.into_iter().map(|(_, sample)| sample).collect();
+    }
+    walk.one_by_one(&free)
+}
+
+/// Sets the random numbers of tiles apart.
+const STREAM: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// A sample that no circle covers yet.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    /// The number of its leaf in the tile.
+    leaf: usize,
+    x: DVec2,
+    /// Whether it counts when degrees are counted.
+    counts: bool,
+}
+
+/// Most samples a side of a leaf that count when degrees are counted: enough to tell a crowded place from a free one, and
+/// work that does not grow with the fourth power of the oversampling.
+const COUNTED: u32 = 4;
+
+/// The samples of a tile being looked at.
+struct Walk<'a, 'b, 'c> {
+    picker: Picker<'a, 'b>,
+    leaves: &'c [u32],
+    /// Which leaves are known to be covered by one circle each.
+    is_done: Vec<bool>,
+}
+
+impl Walk<'_, '_, '_> {
+    /// Turns to a leaf, unless it is known to be covered.
+    fn turn_to(&mut self, leaf: usize) -> bool {
+        if !self.is_done[leaf] {
+            self.picker.turn_to(self.leaves[leaf]);
+            self.is_done[leaf] = self.picker.is_leaf_covered();
+        }
+        !self.is_done[leaf]
+    }
+
+    fn row_by_row(&mut self, rows: &[Row], random: &mut Pcg64) -> Result<usize, MeshError> {
+        let mut looked_at = 0;
+        for row in rows {
+            if self.turn_to(row.leaf) && !self.picker.is_box_covered(row.centre, row.half) {
+                for x in samples(self.picker.field.mesher, row, random) {
+                    looked_at += 1;
+                    self.picker.pick(x)?;
+                }
+            }
+        }
+        Ok(looked_at)
+    }
+
+    fn one_by_one(&mut self, samples: &[Sample]) -> Result<usize, MeshError> {
+        let mut looked_at = 0;
+        for sample in samples {
+            if self.turn_to(sample.leaf) {
+                looked_at += 1;
+                self.picker.pick(sample.x)?;
+            }
+        }
+        Ok(looked_at)
+    }
+
+    /// The samples that lie in the domain and that no circle covers yet.
+    fn uncovered(&mut self, rows: &[Row], random: &mut Pcg64) -> Vec<Sample> {
+        let mut free = Vec::new();
+        let apart = self.picker.field.mesher.oversample.div_ceil(COUNTED);
+        for row in rows {
+            if !self.turn_to(row.leaf) {
+                continue;
+            }
+            let picker = &self.picker;
+            for (x, column) in samples(picker.field.mesher, row, random).zip(0u32..) {
+                if picker.is_free(x - picker.anchor, [NO_CIRCLE; 2]) {
+                    let counts = row.number.is_multiple_of(apart) && column.is_multiple_of(apart);
+                    free.push(Sample {
+                        leaf: row.leaf,
+                        x,
+                        counts,
+                    });
+                }
+            }
+        }
+        free
+    }
+}
+
+/// In how many samples' circles each sample lies, of those that count.
+fn degrees(field: &Field, samples: &[Sample]) -> Result<Vec<u32>, MeshError> {
+    let mut circles = DiscGrid::new(field.sizing.t());
+    for sample in samples.iter().filter(|sample| sample.counts) {
+        let radius = field.sizing.at(sample.x)?;
+        circles.insert(Disc {
+            centre: sample.x,
+            radius,
+        });
+    }
+    let mut near = Vec::new();
+    let degree = |sample: &Sample| {
+        circles.covering(sample.x, field.sizing.at(sample.x)?, 0.0, &mut near);
+        Ok(near.len() as u32)
+    };
+    samples.iter().map(degree).collect()
+}

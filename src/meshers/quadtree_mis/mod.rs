@@ -1,0 +1,242 @@
+//! Quadtree and maximal independent set (§4): a circle packing out of an oversample of circles.
+//!
+//! # Idea
+//! Refine a quadtree until its leaves are about as large as the edges wanted there. Put more points than needed into every
+//! leaf, each the centre of a circle of radius s = c_b f that no other vertex may lie in. Of these overlapping circles
+//! keep a maximal set in which none covers the centre of another. The centres are well spaced by construction, and as far as
+//! the samples were dense they leave no gap; so their Delaunay triangulation is well shaped (Theorem 4.1).
+//!
+//! # Steps
+//! 1. [`balance::balance`]: the quadtree, split until a leaf's side is at most [`QuadtreeMis::leaf_side`] · s, neighbours
+//!    within a factor of two of each other;
+//! 2. [`circles::circles`]: candidates on the segments; those in the leaves are made where they are looked at;
+//! 3. [`independent_set::independent_set`]: on the input vertices, then the edges, then the interior; with
+//!    [`QuadtreeMis::complete`] it goes on sampling until no gap remains ([`complete::complete`]);
+//! 4. [`triangulate`] makes the constrained Delaunay triangulation of the centres.
+//!
+//! # Guarantee
+//! Always, each a check of the certificate, with t = α c_b < 1 and f ≤ lfs, c_b ≤ 1 where input vertices must be apart:
+//! * no centre lies in a circle chosen before it, ‖x − y‖ ≥ c_b min(f(x), f(y)), so the packing circles of radius
+//!   c_b f / (2 + t) are disjoint (Lemma 5.4, `packing-disjoint`, and `vertices-upper`, which follows);
+//! * nn ≥ c_b (1 − t) f at vertices (first half of the proof of Lemma 5.7, `nn-vertex-lower`) and
+//!   nn ≥ c_b f / (2 + 2t) elsewhere (second half of Lemma 5.8, `nn-point-lower`): neither proof uses coverage.
+//!
+//! With `complete = true` the biting circles cover the domain (`coverage`), so the packing has the β of Theorem 5.5, and
+//! with it come `nn-vertex-upper`, `nn-point-upper` and `vertices-lower`. Without, the β reached is measured.
+//!
+//! The angle bound of Theorem 6.8 is *not* guaranteed, even then. Lemma 6.1 (triangles seen from their circumcentres)
+//! needs only packing and coverage, but §6.2 needs how the biting method places circles along the boundary: an
+//! independent set may leave a piece nearly two radii long, above whose middle a vertex may stand arbitrarily low.
+//! The even division of segments makes that rare; it happens where input angles are acute.
+//!
+//! # Cost
+//! O(o) near-queries and O(o²) samples a leaf for o = [`QuadtreeMis::oversample`], f once a leaf, once a vertex, and some
+//! 4 + o times a vertex on the boundary; O(n log n) for the triangulation. Tiles of leaves are worked on in rounds by
+//! [`Request::threads`] threads ([`tiles`]); the mesh does not depend on how many there are.
+//!
+//! # Deviations from the paper (and why)
+//! * §4 says circles of radius f / 2 that do not overlap. Here two candidates are in conflict where the circle of radius
+//!   c_b f of the one chosen first covers the other: the same for uniform f, and for graded f what Definition 4.1 and
+//!   Lemma 5.4 need.
+//! * Gaps along the segments are closed whether complete or not ([`edges`]): interior points in them would stand next to
+//!   the boundary. So all of a mesh's gaps are in the interior.
+//! * The order of choice is one within tiles of at most 4096 leaves, tile after tile, so that it can be parallel without a
+//!   conflict graph in memory. In the default order the samples are scanned row by row.
+//! * Candidates are not stored: at 10⁶ triangles there would be some 10⁸ of them.
+//!
+//! # Reference
+//! G. L. Miller, D. Talmor, S.-H. Teng, N. Walkington, "A Delaunay Based Numerical Method for Three Dimensions:
+//! Generation, Formulation, and Partition", STOC 1995; the same with H. Wang, "Control Volume Meshes Using Sphere
+//! Packing: Generation, Refinement and Coarsening", 5th International Meshing Roundtable, 1996.
+
+// The steps are private; their links work in `cargo doc --document-private-items`.
+#![allow(rustdoc::private_intra_doc_links)]
+
+mod balance;
+mod circles;
+mod complete;
+mod edges;
+mod independent_set;
+mod interior;
+#[cfg(test)]
+mod tests;
+mod tiles;
+
+pub use circles::Sampling;
+pub use independent_set::{Order, Packing};
+
+use super::sizing::Sizing;
+use super::{Entry, Guarantee, MeshError, Mesher, Monitor, Parameter, Parameters, Request, Trace};
+use crate::delaunay::triangulate;
+use crate::domain::Domain;
+use crate::mesh::Mesh;
+use crate::spacing::Spacing;
+use serde::{Deserialize, Serialize};
+
+/// The method and its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct QuadtreeMis {
+    /// Samples a side of a leaf and candidates a part of a segment's even division, 2 to 64. Default 8: each doubling
+    /// from 2 to 8 makes the packing some tenth denser and the gaps less than half as wide at little cost, since most
+    /// rows of samples are covered before they are looked at; 16 takes twice the time for a twentieth more.
+    pub oversample: u32,
+    /// Where the samples are in their squares.
+    pub sampling: Sampling,
+    /// The order in which candidates are looked at.
+    pub order: Order,
+    /// Longest side of a leaf over s = c_b f in it, in (0, 1]; sides are between half of that and that. Default 1: "until
+    /// the leaf is about f"; smaller leaves are the same as more samples, but cost a look at the circles around each.
+    pub leaf_side: f64,
+    /// Whether to go on sampling where gaps remain until none does.
+    pub complete: bool,
+}
+
+impl Default for QuadtreeMis {
+    fn default() -> Self {
+        Self {
+            oversample: 8,
+            sampling: Sampling::default(),
+            order: Order::default(),
+            leaf_side: 1.0,
+            complete: false,
+        }
+    }
+}
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "quadtree-mis",
+    summary: "maximal independent set of circles on an oversampled quadtree (Miller, Talmor, Teng, Walkington)",
+    parameters: &[
+        Parameter {
+            name: "oversample",
+            values: "2 to 64",
+            default: "8",
+            help: "samples a side of a leaf; the default is where denser samples stop paying",
+        },
+        Parameter {
+            name: "sampling",
+            values: "regular, jittered",
+            default: "regular",
+            help: "samples in the middle of their squares, or anywhere in them by seed",
+        },
+        Parameter {
+            name: "order",
+            values: "insertion, degree, spacing, random",
+            default: "insertion",
+            help: "which candidate is looked at first (open in §4): row by row, fewest conflicts, smallest spacing, any",
+        },
+        Parameter {
+            name: "leaf_side",
+            values: "above 0, at most 1",
+            default: "1.0",
+            help: "longest side of a leaf of the quadtree over s = c_b f",
+        },
+        Parameter {
+            name: "complete",
+            values: "true, false",
+            default: "false",
+            help: "go on sampling where gaps remain until none does",
+        },
+    ],
+    guarantees: &[
+        Guarantee::always("constrained-delaunay"),
+        Guarantee::always("packing-disjoint"),
+        Guarantee::always("nn-vertex-lower"),
+        Guarantee::always("nn-point-lower"),
+        Guarantee::always("vertices-upper"),
+        Guarantee::with("coverage", "complete", "true"),
+        Guarantee::with("nn-vertex-upper", "complete", "true"),
+        Guarantee::with("nn-point-upper", "complete", "true"),
+        Guarantee::with("vertices-lower", "complete", "true"),
+    ],
+    make,
+};
+
+fn make(parameters: &Parameters) -> Result<Box<dyn Mesher>, String> {
+    let value = serde_json::Value::Object(parameters.clone());
+    let mesher: QuadtreeMis = serde_json::from_value(value).map_err(|error| error.to_string())?;
+    mesher.check()?;
+    Ok(Box::new(mesher))
+}
+
+/// What the steps share.
+struct Field<'a> {
+    mesher: &'a QuadtreeMis,
+    domain: &'a Domain,
+    sizing: Sizing<'a>,
+    monitor: Monitor,
+    seed: u64,
+    threads: usize,
+}
+
+impl QuadtreeMis {
+    /// Which parameter is out of its range, if one is.
+    fn check(&self) -> Result<(), String> {
+        if !(2..=64).contains(&self.oversample) {
+            return Err(format!("oversample is {}: it must be 2 to 64", self.oversample));
+        }
+        if !(self.leaf_side > 0.0 && self.leaf_side <= 1.0) {
+            return Err(format!(
+                "leaf_side is {}: it must be above 0 and at most 1",
+                self.leaf_side
+            ));
+        }
+        Ok(())
+    }
+
+    fn field<'a>(
+        &'a self,
+        domain: &'a Domain,
+        spacing: &'a dyn Spacing,
+        request: &Request,
+    ) -> Result<Field<'a>, MeshError> {
+        self.check().map_err(MeshError::Declined)?;
+        let sizing = Sizing::new(domain, spacing, request);
+        let t = sizing.t();
+        if t.is_nan() || t >= 1.0 {
+            return Err(MeshError::Declined(format!(
+                "quadtree-mis needs t = alpha c_b below 1, and here it is {t}; limit the spacing's gradient (--t)"
+            )));
+        }
+        Ok(Field {
+            mesher: self,
+            domain,
+            sizing,
+            monitor: Monitor::new(&request.budget),
+            seed: request.seed,
+            threads: request.threads,
+        })
+    }
+
+    /// Steps 1 to 3: the circles, without the triangulation of their centres.
+    pub fn pack(
+        &self,
+        domain: &Domain,
+        spacing: &dyn Spacing,
+        request: &Request,
+        trace: &mut Trace,
+    ) -> Result<Packing, MeshError> {
+        let field = self.field(domain, spacing, request)?;
+        let tree = trace.step("balance", || balance::balance(&field))?;
+        let candidates = trace.step("circles", || circles::circles(&field))?;
+        let packing = trace.step("independent_set", || {
+            independent_set::independent_set(&field, &tree, candidates)
+        })?;
+        packing.note(trace);
+        Ok(packing)
+    }
+}
+
+impl Mesher for QuadtreeMis {
+    fn mesh(
+        &self,
+        domain: &Domain,
+        spacing: &dyn Spacing,
+        request: &Request,
+        trace: &mut Trace,
+    ) -> Result<Mesh, MeshError> {
+        let Packing { centres, pieces, .. } = self.pack(domain, spacing, request, trace)?;
+        Ok(trace.step("triangulate", || triangulate(domain, centres, pieces))?)
+    }
+}
