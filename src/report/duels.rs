@@ -242,19 +242,15 @@ fn by_setting(contest: &Contest, ours: usize, title: &str) -> String {
             if own.is_empty() {
                 continue;
             }
-            let difference = |rival: usize, value: fn(&Report) -> Option<f64>| {
-                let pairs = contest.pairs([ours, rival], value).into_iter();
-                median(
-                    pairs
-                        .filter(|(task, _)| own.contains(task))
-                        .map(|(_, [a, b])| a - b)
-                        .collect(),
-                )
+            let told = |rival: usize, by: Yardstick| {
+                let pairs = contest.pairs([ours, rival], by.value).into_iter();
+                let gains = pairs.filter(|(task, _)| own.contains(task)).map(|(_, [a, b])| a - b);
+                let gains: Vec<f64> = gains.collect();
+                let won = gains.iter().filter(|gain| **gain > 0.0).count();
+                let of = gains.len();
+                format!("{} ({won} of {of})", signed(median(gains)))
             };
-            let two = |rival: &usize| {
-                let [smallest, mean] = [YARDSTICKS[0], YARDSTICKS[1]].map(|by| difference(*rival, by.value));
-                format!("{} · {}", signed(smallest), signed(mean))
-            };
+            let two = |rival: &usize| [YARDSTICKS[0], YARDSTICKS[1]].map(|by| told(*rival, by)).join(" · ");
             let cells = [spacing.clone(), words.to_string(), own.len().to_string()];
             lines.push(cells.into_iter().chain(others.iter().map(two)).collect());
         }
@@ -262,7 +258,7 @@ fn by_setting(contest: &Contest, ours: usize, title: &str) -> String {
     let own = &contest.methods[ours].label;
     format!(
         "### Where, at {title}\n\nSmallest angle · mean smallest angle of {own} less those of the rival, degrees, medians \
-         over the tasks that both measured, by what the paper's theorem assumes:\n\n"
+         over the tasks that both measured, and how many of these it wins, by what the paper's theorem assumes:\n\n"
     ) + &table(&head, &lines)
 }
 

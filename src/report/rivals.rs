@@ -48,10 +48,7 @@ const MEDIANS: &str = "Numbers are medians over the tasks that every mesher in t
 
 /// What the tasks of a contest are.
 fn tasks_told(contest: &Contest) -> String {
-    let names = |name: fn(&Asked) -> String| {
-        let all: Vec<String> = contest.tasks.iter().map(name).collect();
-        first_seen(all.iter().map(String::as_str)).len()
-    };
+    let domains = first_seen(contest.tasks.iter().map(|asked| asked.domain.as_str())).len();
     let values = |value: fn(&Asked) -> f64| {
         let all = distinct(contest.tasks.iter().map(value));
         all.into_iter().map(parameter).collect::<Vec<_>>().join(", ")
@@ -69,13 +66,23 @@ fn tasks_told(contest: &Contest) -> String {
     } else {
         format!(", for {} triangles", counts.join(" or "))
     };
+    let all: Vec<usize> = (0..contest.tasks.len()).collect();
+    let spacings = contest.by_spacing(&all).into_iter().map(|(title, tasks)| {
+        let specs = first_seen(tasks.iter().map(|task| contest.tasks[*task].spacing.as_str())).join("`, `");
+        let count = tasks.len();
+        if specs == title {
+            format!("{count} with `{title}`")
+        } else {
+            format!("{count} with {title}, that is `{specs}`")
+        }
+    });
     format!(
-        "{} tasks: {} domains, {} spacings, t = {}, c_b = {}{counts}",
+        "{} tasks: {} domains, t = {}, c_b = {}{counts}; {}",
         contest.tasks.len(),
-        names(|asked| asked.domain.clone()),
-        names(|asked| asked.spacing.clone()),
+        domains,
         values(|asked| asked.t),
-        values(|asked| asked.c_b)
+        values(|asked| asked.c_b),
+        spacings.collect::<Vec<_>>().join("; ")
     )
 }
 

@@ -4,7 +4,7 @@ use super::findings::{OrderFinding, broken_checks, claims, fewest, grids, order_
 use super::markdown::{degrees, number, parameter, table};
 use super::page::MOST_LINES;
 use crate::experiment::record::{Report, Row};
-use crate::experiment::summary::{Grid, Pair, measured, median};
+use crate::experiment::summary::{Grid, Pair, first_seen, measured, median};
 
 /// Between what bounds the two ratios lie.
 pub(super) fn size_finding(rows: &[Row]) -> Option<String> {
@@ -290,23 +290,36 @@ pub(super) fn certificate(rows: &[Row]) -> String {
             format!("{held} of {count}")
         }
     };
-    let lines = tallies.iter().map(|tally| {
-        vec![
-            tally.mesher.clone(),
-            tally.claim.clone(),
-            tally.lemma.clone(),
-            of(tally.guaranteed),
-            of(tally.measured),
-        ]
-    });
+    let meshers = first_seen(tallies.iter().map(|tally| tally.mesher.as_str()));
+    let claims = first_seen(tallies.iter().map(|tally| tally.claim.as_str()));
+    let mut head = vec!["claim".to_string(), "paper".to_string()];
+    for mesher in &meshers {
+        head.extend([format!("{mesher}: held where guaranteed"), "held elsewhere".to_string()]);
+    }
+    let line = |claim: &str| {
+        let own = |mesher: &str| {
+            tallies
+                .iter()
+                .find(|tally| tally.claim == claim && tally.mesher == mesher)
+        };
+        let lemma = meshers
+            .iter()
+            .find_map(|mesher| own(mesher))
+            .map(|tally| tally.lemma.clone());
+        let mut cells = vec![claim.to_string(), lemma.unwrap_or_default()];
+        for mesher in &meshers {
+            let (guaranteed, measured) =
+                own(mesher).map_or(((0, 0), (0, 0)), |tally| (tally.guaranteed, tally.measured));
+            cells.extend([of(guaranteed), of(measured)]);
+        }
+        cells
+    };
+    let lines: Vec<_> = claims.into_iter().map(line).collect();
     let mut text =
         "## Certificate\n\nIn how many meshes each claim held: where it is guaranteed (its hypotheses hold), and \
          where it is only measured.\n\n"
             .to_string();
-    text += &table(
-        &["mesher", "claim", "paper", "held where guaranteed", "held elsewhere"],
-        &lines.collect::<Vec<_>>(),
-    );
+    text += &table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &lines);
     for (applies, title) in [
         (true, "Guaranteed checks that failed"),
         (false, "Bounds that biting broke where a hypothesis fails"),
