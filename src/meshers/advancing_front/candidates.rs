@@ -4,7 +4,7 @@
 //! front can only be closed by smaller ones: the wedges beside the new sides, and nodes and edges too near to them.
 
 use super::front::Front;
-use super::ideal_point::Base;
+use super::ideal_point::{Base, Place};
 use crate::geometry::predicates::{Meeting, orient2d, segments_meet};
 use crate::geometry::segments::closest_on_segment;
 use crate::geometry::{DVec2, Rect, turn};
@@ -18,12 +18,17 @@ pub(super) enum Apex {
     New(DVec2, f64),
 }
 
-/// New nodes are tried along the bisector at these shares of δ₁.
-const SHARES: [f64; 4] = [1.0, 0.85, 0.7, 0.58];
+/// A candidate that ranks so many degrees is taken without looking at other places for a new node.
+const GOOD: f64 = 50.0;
 
 /// A new node ranks this share lower than it would as a node of the front: of two good triangles, the one without a
 /// new node is the better.
 const NEW_NODE: f64 = 0.95;
+
+/// What the rank of a new node is multiplied by: one nearer to the base than δ₁ makes smaller elements than asked for.
+fn weight(place: Place) -> f64 {
+    NEW_NODE * place.share * place.share
+}
 
 /// Height of an equilateral triangle over its side: nothing nearer than that to a new side is in place.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
@@ -57,8 +62,8 @@ fn left_of(p: DVec2, q: DVec2, point: DVec2) -> bool {
 struct Candidate {
     apex: Apex,
     at: DVec2,
-    /// Which share of δ₁ a new node stands at.
-    share: f64,
+    /// Where a new node stands.
+    place: Place,
     rank: f64,
     /// Whether the rank counts everything, and the triangle was found valid.
     examined: bool,
@@ -73,19 +78,28 @@ impl Front<'_> {
         let near = self.near(base, Rect::around(around));
         let mut list = self.ranked(base, &near, radius);
         if with_new {
-            list.extend(SHARES.iter().filter_map(|&share| {
-                let at = base.apex(share * base.side);
-                let rank = NEW_NODE * share * share * self.rank(base, None, at)?;
-                Some(Candidate {
-                    apex: Apex::New(at, base.side),
-                    at,
-                    share,
-                    rank,
-                    examined: false,
-                })
-            }));
+            list.extend(self.new_node(base, Place::IDEAL));
         }
-        self.best(base, &near, list, least)
+        let best = self.best(base, &near, &mut list, least);
+        if !with_new || best.is_some_and(|best| best.rank >= GOOD) {
+            return best.map(|best| best.apex);
+        }
+        let is_short = base.length < SHORT_BASE * base.side;
+        let others = Place::OTHERS.iter().filter(|place| is_short || place.shift == 0.0);
+        list.extend(others.filter_map(|&place| self.new_node(base, place)));
+        self.best(base, &near, &mut list, least).map(|best| best.apex)
+    }
+
+    /// A new node as a candidate, with s as at the base until it is examined.
+    fn new_node(&self, base: &Base, place: Place) -> Option<Candidate> {
+        let at = base.apex_at(base.side, place);
+        Some(Candidate {
+            apex: Apex::New(at, base.side),
+            at,
+            place,
+            rank: weight(place) * self.rank(base, None, at)?,
+            examined: false,
+        })
     }
 
     /// Whether to close the cleft between the base and the next edge by the triangle of the two.
@@ -142,7 +156,7 @@ impl Front<'_> {
             Some(Candidate {
                 apex: Apex::Node(edge.from),
                 at: edge.p,
-                share: 1.0,
+                place: Place::IDEAL,
                 rank,
                 examined: false,
             })
@@ -151,18 +165,15 @@ impl Front<'_> {
     }
 
     /// Examines candidates from the highest rank down until one that was examined ranks highest.
-    fn best(&self, base: &Base, near: &[Near], mut list: Vec<Candidate>, least: f64) -> Option<Apex> {
+    fn best(&self, base: &Base, near: &[Near], list: &mut Vec<Candidate>, least: f64) -> Option<Candidate> {
         loop {
             let (place, first) = list.iter().enumerate().reduce(|best, other| {
                 let better = other.1.rank > best.1.rank || (other.1.rank == best.1.rank && other.1.examined);
                 if better { other } else { best }
             })?;
             let mut first = *first;
-            if first.rank < least {
-                return None;
-            }
-            if first.examined {
-                return Some(first.apex);
+            if first.examined || first.rank < least {
+                return (first.rank >= least).then_some(first);
             }
             match self.examined(base, near, &mut first) {
                 Some(()) => list[place] = first,
@@ -174,16 +185,16 @@ impl Front<'_> {
     }
 
     fn examined(&self, base: &Base, near: &[Near], candidate: &mut Candidate) -> Option<()> {
-        let mut weight = 1.0;
+        let mut weigh = 1.0;
         if let Apex::New(..) = candidate.apex {
-            let (at, size) = self.new_apex(base, candidate.share);
+            let (at, size) = self.new_apex(base, candidate.place);
             candidate.apex = Apex::New(at, size);
             candidate.at = at;
-            weight = NEW_NODE * candidate.share * candidate.share;
-            candidate.rank = weight * self.rank(base, None, at)?;
+            weigh = weight(candidate.place);
+            candidate.rank = weigh * self.rank(base, None, at)?;
         }
         let room = self.examine(base, candidate.apex, candidate.at, near)?;
-        candidate.rank = candidate.rank.min(weight * room);
+        candidate.rank = candidate.rank.min(weigh * room);
         candidate.examined = true;
         Some(())
     }
@@ -245,6 +256,7 @@ impl Front<'_> {
             at,
             closes,
             sides: [base.a.distance(at), base.b.distance(at)],
+            size: base.side,
             bounds: Rect::around([base.a, base.b, at]),
         };
         let mut room = f64::INFINITY;
@@ -254,6 +266,12 @@ impl Front<'_> {
         Some(60.0 * room.min(1.0))
     }
 }
+
+/// A base of less than this share of δ₁ is short: over it new nodes may be off the bisector.
+const SHORT_BASE: f64 = 0.9;
+
+/// An edge of this share of δ₁ is not too short yet.
+const SHORT: f64 = 1.0;
 
 /// How far around a cleft the front is looked at, as a share of the base.
 const CLEFT_ROOM: f64 = 0.25;
@@ -281,6 +299,8 @@ struct Trial<'a> {
     closes: [bool; 2],
     /// Lengths of the sides at a and at b.
     sides: [f64; 2],
+    /// δ₁.
+    size: f64,
     bounds: Rect,
 }
 
@@ -306,6 +326,11 @@ impl Trial<'_> {
                     room = room.min(foot.distance(edge.p) / (HEIGHT * self.sides[end].min(edge.size)));
                 }
             }
+        }
+        if self.node.is_none() && !corners[0] && edge.sees(self.at) {
+            // Too near to a node is too short an edge: the row has more nodes than s asks for.
+            let size = SHORT * self.size.min(edge.size);
+            room = room.min(edge.p.distance_squared(self.at) / (size * size));
         }
         if self.node.is_none() && corners == [false, false] && left_of(edge.p, edge.q, self.at) {
             let distance = closest_on_segment([edge.p, edge.q], self.at).distance(self.at);

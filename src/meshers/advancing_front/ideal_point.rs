@@ -21,12 +21,47 @@ pub(super) struct Base {
     pub ideal: DVec2,
 }
 
+/// A place for a new node over a base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    /// How long the new sides should be, in δ₁.
+    pub share: f64,
+    /// How far the node is off the bisector, along the base and in its length.
+    pub shift: f64,
+}
+
+impl Place {
+    pub const IDEAL: Self = Self::new(1.0, 0.0);
+
+    pub const fn new(share: f64, shift: f64) -> Self {
+        Self { share, shift }
+    }
+
+    /// Other places to try: nearer to the base where there is no room for the ideal one, and beside the bisector, where the
+    /// row is to have fewer nodes than bases.
+    pub const OTHERS: [Self; 7] = [
+        Self::new(0.85, 0.0),
+        Self::new(0.7, 0.0),
+        Self::new(0.58, 0.0),
+        Self::new(1.0, 0.25),
+        Self::new(1.0, -0.25),
+        Self::new(1.0, 0.5),
+        Self::new(1.0, -0.5),
+    ];
+}
+
 impl Base {
     /// The point over the base's middle at the given distance from both ends.
     pub fn apex(&self, side: f64) -> DVec2 {
+        self.apex_at(side, Place::IDEAL)
+    }
+
+    /// Where a new node goes, for a given δ₁.
+    pub fn apex_at(&self, side: f64, place: Place) -> DVec2 {
         let along = self.b - self.a;
+        let side = place.share * side;
         let height = (side * side - 0.25 * self.length * self.length).max(0.0).sqrt();
-        self.a.midpoint(self.b) + along.perp() * (height / self.length)
+        self.a.midpoint(self.b) + along.perp() * (height / self.length) + along * place.shift
     }
 }
 
@@ -57,10 +92,10 @@ impl Front<'_> {
         size.clamp(self.method.low * length, self.method.high * length)
     }
 
-    /// A new node over the base at the given share of δ₁, with s there: the mean of s at the base and at the apex replaces
+    /// A new node at a place over the base, with s there: the mean of s at the base and at the apex replaces
     /// s at the base alone. Where there is no s, as may be outside the domain, it is NaN.
-    pub fn new_apex(&self, base: &Base, share: f64) -> (DVec2, f64) {
-        let first = base.apex(share * base.side);
+    pub fn new_apex(&self, base: &Base, place: Place) -> (DVec2, f64) {
+        let first = base.apex_at(base.side, place);
         let Ok(size) = self.sizing.at(first) else {
             return (first, f64::NAN);
         };
@@ -69,7 +104,7 @@ impl Front<'_> {
         if (side - base.side).abs() <= SAME_SIDE * base.side {
             return (first, size);
         }
-        let second = base.apex(share * side);
+        let second = base.apex_at(side, place);
         (second, self.sizing.at(second).unwrap_or(f64::NAN))
     }
 }
