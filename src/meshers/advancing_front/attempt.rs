@@ -4,7 +4,7 @@
 //! 2. once all other faces are done: the same, for half of that;
 //! 3. the search widened, new nodes no more ([`Tally::widened`]), for a quarter of that;
 //! 4. the elements around it deleted and made anew ([`Front::open_up`]), a bounded number of times at one place;
-//! 5. the widest search, for any valid triangle.
+//! 5. the widest search, for a triangle of any angle that is more than a rounding error.
 //!
 //! What then is still front is closed by force. A face is asked for no more than half of the angles that the front has at its
 //! ends: within a narrow input angle no triangle is better.
@@ -23,11 +23,24 @@ pub(super) const ATTEMPTS: u8 = 4;
 /// The search radius grows by this factor, once and once more, when it is widened.
 const WIDER: f64 = 4.0;
 
+/// The last attempt takes what ranks this share of [`AdvancingFront::accept`]: by default one degree, since a front that
+/// runs along collinear nodes of the boundary would leave a sliver of a rounding error there.
+///
+/// [`AdvancingFront::accept`]: super::AdvancingFront::accept
+const LAST: f64 = 1.0 / 30.0;
+
 /// A face that was picked.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Picked {
     pub base: Base,
     ticket: Ticket,
+}
+
+#[cfg(test)]
+impl Picked {
+    pub fn is_cleft(&self) -> bool {
+        self.ticket.is_cleft()
+    }
 }
 
 impl Front<'_> {
@@ -68,7 +81,7 @@ impl Front<'_> {
                 self.tally.widened += 1;
                 self.candidates(base, WIDER * reach, least(0.25), false)
             }
-            _ => self.candidates(base, WIDER * WIDER * reach, 0.0, false),
+            _ => self.candidates(base, WIDER * WIDER * reach, least(LAST), false),
         }
     }
 

@@ -32,6 +32,9 @@
 //!   leads to, in its triangle and in the wedges it leaves beside it: the same near the ideal point, better where fronts meet.
 //! * Lengths that agree to 8 bits count as equal, first come first served, so that on uniform s the front moves in rows and
 //!   not as rounding has it.
+//! * Over a base much shorter than s a new node may stand beside the bisector ([`ideal_point::Place::OTHERS`]), so that a
+//!   row gets fewer nodes than it has bases: what paving calls row adjustment. Without it rows keep their number of nodes
+//!   away from a fine boundary until s is twice the base, and then break up.
 //! * The literature stops where a front cannot close. Here the last resort is the constrained Delaunay triangulation of what
 //!   is left, counted as `closed_by_force`.
 //! * Paving makes quadrilaterals; its controls are kept, its smoothing of rows is not: see [`AdvancingFront::smooth`].
@@ -108,18 +111,23 @@ pub struct AdvancingFront {
     pub swap: bool,
 }
 
+impl AdvancingFront {
+    /// All parameters at their defaults.
+    pub const DEFAULT: Self = Self {
+        advance: Advance::Element,
+        search: 1.5,
+        cleft: 80.0,
+        accept: 30.0,
+        low: 0.55,
+        high: 2.0,
+        smooth: 0,
+        swap: false,
+    };
+}
+
 impl Default for AdvancingFront {
     fn default() -> Self {
-        Self {
-            advance: Advance::Element,
-            search: 1.5,
-            cleft: 80.0,
-            accept: 30.0,
-            low: 0.55,
-            high: 2.0,
-            smooth: 0,
-            swap: false,
-        }
+        Self::DEFAULT
     }
 }
 
@@ -256,13 +264,21 @@ impl Mesher for AdvancingFront {
 /// Element by element, until the front is empty or nothing moves it any more.
 fn advance_until_empty(front: &mut Front) -> Result<(), MeshError> {
     while let Some(face) = front.pick_face() {
-        match front.find_apex(&face) {
-            Some(apex) => {
-                let sides = front.advance(&face.base, apex)?;
-                front.closure_check(sides)?;
-            }
-            None => front.failed(&face),
-        }
+        advance_face(front, &face)?;
     }
     Ok(())
+}
+
+/// One face of the front: the triangle over it, or the next attempt at it later.
+fn advance_face(front: &mut Front, face: &attempt::Picked) -> Result<(), MeshError> {
+    match front.find_apex(face) {
+        Some(apex) => {
+            let sides = front.advance(&face.base, apex)?;
+            front.closure_check(sides)
+        }
+        None => {
+            front.failed(face);
+            Ok(())
+        }
+    }
 }
