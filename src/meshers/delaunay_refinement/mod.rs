@@ -15,12 +15,12 @@
 //!
 //! # Guarantee
 //! Every triangle has the angle and the size asked for, but those counted: `left_at_acute_vertex` (the angle is the
-//! input's, or to mend it would shorten the pieces at an acute vertex for ever), `left_by_rounding` (coordinates do not
-//! resolve the point), `left_by_floor` (edges would become shorter than [`pieces::FLOOR`] of what input and sizes ask for;
-//! this is what ends the work at angles for which no proof does). In theory ends with nothing left: up to 20.7° for
-//! circumcentres, diametral circles and input angles of at least 90° (60° with shells, Shewchuk); up to 25.7° (28.6° where
-//! triangles are small beside the features) for lenses; to 33° or so in practice. Of the certificate:
-//! `constrained-delaunay`. The paper's bounds are measured only.
+//! input's, or to mend it would shorten the pieces at an acute vertex below [`pieces::SHELL_FLOOR`], and so on for ever),
+//! `left_by_rounding` (coordinates do not resolve the point), `left_by_floor` (edges would become shorter than
+//! [`pieces::FLOOR`] of what input and sizes ask for). The floors end the work on every domain and at every angle. In theory
+//! it ends without them up to 20.7° for circumcentres, diametral circles and input angles of at least 60°, and up to 25.7°
+//! (28.6° without good grading) for lenses; in practice up to 33° or so. Of the certificate: `constrained-delaunay`. The
+//! paper's bounds are measured only.
 //!
 //! # Cost
 //! O(1) a point in practice: a short walk, the cavity, and about six triangles tested; what s is at their corners mostly
@@ -33,10 +33,12 @@
 //! * Lenses have Triangle's angle: a vertex encroaches where it sees a piece under more than 180° less twice the bound, which
 //!   is Chew's lens at 30°. As Chew does, splitting then removes the free vertices in the diametral circle that see the piece.
 //! * Small input angles: pieces at a vertex of an acute angle are split at a distance from it that is a power of two, so that
-//!   two of them end at one distance and do not encroach upon each other (Ruppert's shells, as Shewchuk has them). A piece at
-//!   such a vertex is not split for an angle's sake to below [`pieces::SHELL_FLOOR`] of what the features round the vertex ask
-//!   for. Miller, Pav and Walkington instead leave every skinny triangle whose shortest edge joins two segments at one
-//!   distance from their common vertex; that ends too, but leaves small angles well away from the vertex.
+//!   two of them end at one distance and do not encroach upon each other (Ruppert's shells, as Shewchuk has them). Miller, Pav
+//!   and Walkington leave every skinny triangle whose shortest edge joins two segments at one distance from their common
+//!   vertex; that ends, but leaves small angles well away from the vertex. Here such triangles are mended, and what ends the
+//!   work is the floor of the pieces at the vertex: once they are that short, a point may encroach upon them, since all
+//!   triangles it spoils touch the vertex (`insert_beside`). Between segments a few degrees apart some
+//!   triangles near the vertex still keep small angles.
 //!
 //! # Reference
 //! J. Ruppert, "A Delaunay Refinement Algorithm for Quality 2-Dimensional Mesh Generation", 1995. L. P. Chew,
@@ -48,6 +50,7 @@
 // The steps are private; their links work in `cargo doc --document-private-items`.
 #![allow(rustdoc::private_intra_doc_links)]
 
+mod insert;
 mod pieces;
 mod queue;
 mod refiner;

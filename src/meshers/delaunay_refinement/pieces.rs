@@ -6,7 +6,6 @@ use crate::delaunay::Refinable;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::meshers::MeshError;
-use crate::spacing::{Spacing, lfs_of};
 use std::f64::consts::FRAC_PI_3;
 
 /// For an angle's sake no vertex comes nearer to another than this share of what input and sizes ask for there. The
@@ -14,8 +13,8 @@ use std::f64::consts::FRAC_PI_3;
 pub(super) const FLOOR: f64 = 1.0 / 1024.0;
 
 /// For an angle's sake no piece at an acute vertex becomes shorter than this share of what the features and sizes round it
-/// ask for.
-pub(super) const SHELL_FLOOR: f64 = 1.0 / 16.0;
+/// ask for: the nearest feature that could want it shorter is that far away.
+pub(super) const SHELL_FLOOR: f64 = 1.0 / 4.0;
 
 /// Why a triangle or a piece is left as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +64,8 @@ pub(super) struct Shells {
     /// that vertex has no acute angle beside the segment.
     shortest: Vec<[Option<f64>; 2]>,
     length: Vec<f64>,
+    /// For each input vertex, whether it has an acute angle.
+    is_acute: Vec<bool>,
 }
 
 /// Where a piece is to be split.
@@ -85,14 +86,12 @@ impl Shells {
         let mut shells = Self {
             shortest: vec![[None; 2]; domain.segments().len()],
             length: ends.map(|[a, b]| a.distance(b)).collect(),
+            is_acute: vec![false; domain.vertices().len()],
         };
-        if domain.acute_vertices().is_empty() {
-            return Ok(shells);
-        }
-        let lfs = lfs_of(domain).map_err(|error| MeshError::Declined(error.to_string()))?;
         for &vertex in domain.acute_vertices() {
+            shells.is_acute[vertex] = true;
             let x = domain.vertices()[vertex];
-            let shortest = SHELL_FLOOR * lfs.at(x).min(size(x)?);
+            let shortest = SHELL_FLOOR * feature_size_at(domain, vertex).min(size(x)?);
             let acute = |wedge: &&crate::domain::Wedge| wedge.inside && wedge.angle < FRAC_PI_3;
             for wedge in domain.wedges(vertex).iter().filter(acute) {
                 for segment in [wedge.from, wedge.to] {
@@ -102,6 +101,11 @@ impl Shells {
             }
         }
         Ok(shells)
+    }
+
+    /// Whether a vertex of the triangulation is an input vertex with an acute angle.
+    pub fn is_acute(&self, vertex: u32) -> bool {
+        self.is_acute.get(vertex as usize).copied().unwrap_or(false)
     }
 
     /// Where to split a piece: in the middle; at an acute vertex at a distance that is a power of two, between one and two
@@ -144,6 +148,24 @@ impl Split {
             (Flaw::Angle, _) => Ok(()),
         }
     }
+}
+
+/// lfs at an input vertex (Definition 2.1): the distance to the nearest feature that is not incident to it.
+pub(super) fn feature_size_at(domain: &Domain, vertex: usize) -> f64 {
+    let x = domain.vertices()[vertex];
+    let segments = domain.segments();
+    let is_apart = |s: usize| segments[s].a != vertex && segments[s].b != vertex;
+    let nearest = domain.index().nearest_where(x, is_apart);
+    let own = domain.wedges(vertex).iter().map(|wedge| {
+        let [a, b] = domain.ends(wedge.from);
+        a.distance(b)
+    });
+    let isolated = domain
+        .isolated()
+        .iter()
+        .map(|&other| x.distance(domain.vertices()[other]));
+    let nearest = nearest.map_or(f64::INFINITY, |(_, distance)| distance);
+    own.chain(isolated).fold(nearest, f64::min)
 }
 
 /// The largest power of two that is at most `length`.

@@ -1,10 +1,10 @@
-//! The loop: encroached pieces first, then bad triangles one at a time.
+//! The state of a refinement: what is measured of vertices, pieces and triangles; encroached pieces split.
 
 use super::DelaunayRefinement;
 use super::pieces::{FLOOR, Left, Nearness, Shells, in_diametral_circle};
 use super::queue::{Queue, Ticket};
 use super::triangles::{Bounds, Flaw, NewPoint, Shape};
-use crate::delaunay::{Cavity, Location, Refinable, following};
+use crate::delaunay::{Cavity, Refinable, following};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::meshers::sizing::Sizing;
@@ -14,39 +14,48 @@ use std::collections::VecDeque;
 
 /// A piece to be split, with the ends that tell whether it still stands, and for what it is split.
 #[derive(Clone, Copy, Debug)]
-struct Encroached {
-    piece: u32,
-    ends: [u32; 2],
-    flaw: Flaw,
+pub(super) struct Encroached {
+    pub piece: u32,
+    pub ends: [u32; 2],
+    pub flaw: Flaw,
 }
 
 /// The state of a refinement.
 pub(super) struct Refiner<'a> {
     pub triangulation: Refinable,
-    bounds: Bounds<'a>,
-    new_point: NewPoint,
-    nearness: Nearness,
-    shells: Shells,
-    monitor: Monitor,
+    pub(super) bounds: Bounds<'a>,
+    pub(super) new_point: NewPoint,
+    pub(super) nearness: Nearness,
+    pub(super) shells: Shells,
+    pub(super) monitor: Monitor,
     /// Points closer than this cannot be told apart well enough.
-    resolution: f64,
-    encroached: VecDeque<Encroached>,
-    queue: Queue,
-    cavity: Cavity,
+    pub(super) resolution: f64,
+    pub(super) encroached: VecDeque<Encroached>,
+    pub(super) queue: Queue,
+    /// Whether bad triangles are queued yet; not before the input's own encroachments are over.
+    pub(super) tests_triangles: bool,
+    pub(super) cavity: Cavity,
     /// s at each vertex.
-    sizes: Vec<f64>,
+    pub(super) sizes: Vec<f64>,
     /// At each vertex, how near another one may come for an angle's sake; it grows no faster than [`FLOOR`] with distance.
-    floors: Vec<f64>,
+    pub(super) floors: Vec<f64>,
     /// Pieces that rounding does not let be split.
-    unsplittable: Vec<(u32, [u32; 2])>,
-    left: Vec<(Ticket, Left)>,
-    circumcentres: usize,
-    splits: usize,
-    removed: usize,
+    pub(super) unsplittable: Vec<(u32, [u32; 2])>,
+    pub(super) left: Vec<(Ticket, Left)>,
+    pub(super) circumcentres: usize,
+    pub(super) splits: usize,
+    pub(super) removed: usize,
+}
+
+/// Twice the sine of half the smallest input angle at a vertex that opens into the domain, at most 1: so long is the edge
+/// between two segments at distance 1.
+fn sharpness(domain: &Domain, vertex: usize) -> f64 {
+    let inside = domain.wedges(vertex).iter().filter(|wedge| wedge.inside);
+    inside.fold(1.0, |least, wedge| least.min(2.0 * (0.5 * wedge.angle).sin()))
 }
 
 impl<'a> Refiner<'a> {
-    /// Measures the input's triangulation: what encroaches, what is bad.
+    /// Measures the input: how small edges may become, what encroaches.
     pub fn new(
         parameters: &DelaunayRefinement,
         triangulation: Refinable,
@@ -69,6 +78,7 @@ impl<'a> Refiner<'a> {
             resolution: sizing.smallest(),
             encroached: VecDeque::new(),
             queue: Queue::new(),
+            tests_triangles: false,
             cavity: Cavity::default(),
             unsplittable: Vec::new(),
             left: Vec::new(),
@@ -77,13 +87,10 @@ impl<'a> Refiner<'a> {
             removed: 0,
         };
         refiner.floors = (0..domain.vertices().len() as u32)
-            .map(|vertex| FLOOR * refiner.room(vertex))
+            .map(|vertex| FLOOR * refiner.room(vertex) * sharpness(domain, vertex as usize))
             .collect();
         for piece in 0..refiner.triangulation.piece_count() as u32 {
             refiner.test_piece(piece)?;
-        }
-        for triangle in 0..refiner.triangulation.triangle_count() as u32 {
-            refiner.test_triangle(triangle)?;
         }
         Ok(refiner)
     }
@@ -109,14 +116,14 @@ impl<'a> Refiner<'a> {
         [next, self.triangulation.apex(edge)].map(|vertex| self.triangulation.point(vertex))
     }
 
-    fn piece_ends(&self, piece: u32) -> ([u32; 2], [DVec2; 2]) {
+    pub(super) fn piece_ends(&self, piece: u32) -> ([u32; 2], [DVec2; 2]) {
         let piece = self.triangulation.piece(piece);
         let ends = [piece.a, piece.b];
         (ends, ends.map(|vertex| self.triangulation.point(vertex)))
     }
 
     /// Queues a piece where it is too long by itself, or the apex of a triangle beside it encroaches upon it.
-    fn test_piece(&mut self, piece: u32) -> Result<(), MeshError> {
+    pub(super) fn test_piece(&mut self, piece: u32) -> Result<(), MeshError> {
         let (ends, places) = self.piece_ends(piece);
         let flaw = if self.bounds.is_too_long(places)? {
             Flaw::Size
@@ -133,8 +140,8 @@ impl<'a> Refiner<'a> {
     }
 
     /// Queues a triangle of the domain that is bad.
-    fn test_triangle(&mut self, triangle: u32) -> Result<(), MeshError> {
-        if !self.triangulation.is_inside(triangle) {
+    pub(super) fn test_triangle(&mut self, triangle: u32) -> Result<(), MeshError> {
+        if !self.tests_triangles || !self.triangulation.is_inside(triangle) {
             return Ok(());
         }
         let corners = self.triangulation.triangle(triangle);
@@ -172,7 +179,7 @@ impl<'a> Refiner<'a> {
         Ok(())
     }
 
-    fn may_split(&self, piece: u32, flaw: Flaw) -> Result<(), Left> {
+    pub(super) fn may_split(&self, piece: u32, flaw: Flaw) -> Result<(), Left> {
         let (ends, places) = self.piece_ends(piece);
         let split = self.shells.split(&self.triangulation, piece);
         let floor = ends.map(|vertex| self.floors[vertex as usize]);
@@ -231,7 +238,7 @@ impl<'a> Refiner<'a> {
         self.test_changed()
     }
 
-    fn floor_at(&self, x: DVec2, around: impl Iterator<Item = u32>) -> f64 {
+    pub(super) fn floor_at(&self, x: DVec2, around: impl Iterator<Item = u32>) -> f64 {
         around.fold(f64::INFINITY, |floor, vertex| {
             let distance = x.distance(self.triangulation.point(vertex));
             floor.min(self.floors[vertex as usize] + FLOOR * distance)
@@ -239,102 +246,18 @@ impl<'a> Refiner<'a> {
     }
 
     /// Notes what is known of the vertex made last.
-    fn add_vertex(&mut self, x: DVec2, floor: f64) -> Result<(), MeshError> {
+    pub(super) fn add_vertex(&mut self, x: DVec2, floor: f64) -> Result<(), MeshError> {
         let size = self.bounds.size_at_vertex(x)?;
         self.sizes.push(size);
         self.floors.push(floor);
         self.monitor.placed(self.sizes.len() - self.removed, x, size)
     }
 
-    fn test_changed(&mut self) -> Result<(), MeshError> {
+    pub(super) fn test_changed(&mut self) -> Result<(), MeshError> {
         for k in 0..self.triangulation.changed().len() {
             self.test_triangle(self.triangulation.changed()[k])?;
         }
         Ok(())
-    }
-
-    /// Breaks bad triangles until none is left but those that must be.
-    pub fn insert_circumcentres(&mut self) -> Result<(), MeshError> {
-        while let Some(ticket) = self.queue.pop() {
-            if self.triangulation.triangle(ticket.triangle) == ticket.corners {
-                if let Err(left) = self.insert_circumcentre(ticket)? {
-                    self.left.push((ticket, left));
-                }
-                self.split_encroached()?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Inserts the circumcentre or off-centre of a bad triangle; or, where it encroaches upon pieces, queues these to be
-    /// split, and the triangle again.
-    fn insert_circumcentre(&mut self, ticket: Ticket) -> Result<Result<(), Left>, MeshError> {
-        let places = ticket.corners.map(|vertex| self.triangulation.point(vertex));
-        let shape = Shape::of(places);
-        let x = self.new_point.of(places, &shape);
-        let triangle = match self.triangulation.locate(ticket.triangle, x) {
-            Location::Vertex(_) => return Ok(Err(Left::ByRounding)),
-            Location::Piece(piece) => return Ok(self.split_instead(&[piece], ticket, &shape)),
-            Location::Triangle(triangle) => triangle,
-        };
-        let mut cavity = std::mem::take(&mut self.cavity);
-        self.triangulation.dig(triangle, x, &mut cavity);
-        let on_rim = cavity
-            .rim()
-            .iter()
-            .filter_map(|&edge| self.triangulation.piece_on(edge));
-        let near: Vec<u32> = on_rim
-            .filter(|&piece| self.nearness.encroaches(self.piece_ends(piece).1, x))
-            .collect();
-        let result = if near.is_empty() {
-            self.fill(&cavity, x, ticket.flaw)?
-        } else {
-            self.split_instead(&near, ticket, &shape)
-        };
-        self.cavity = cavity;
-        Ok(result)
-    }
-
-    /// Queues those of the pieces that may be split, and the triangle again.
-    fn split_instead(&mut self, pieces: &[u32], ticket: Ticket, shape: &Shape) -> Result<(), Left> {
-        let mut refused = Ok(());
-        let mut any = false;
-        for &piece in pieces {
-            match self.may_split(piece, ticket.flaw) {
-                Ok(()) => {
-                    let (ends, flaw) = (self.piece_ends(piece).0, ticket.flaw);
-                    self.encroached.push_back(Encroached { piece, ends, flaw });
-                    any = true;
-                }
-                Err(left) => refused = Err(left),
-            }
-        }
-        if any {
-            self.queue.push(ticket, shape.length_squared);
-            return Ok(());
-        }
-        refused
-    }
-
-    /// Puts the point into its cavity, if that is not too near to another vertex.
-    fn fill(&mut self, cavity: &Cavity, x: DVec2, flaw: Flaw) -> Result<Result<(), Left>, MeshError> {
-        let rim = || cavity.rim().iter().map(|&edge| self.triangulation.ends(edge)[0]);
-        let distances = rim().map(|vertex| x.distance_squared(self.triangulation.point(vertex)));
-        let nearest = distances.fold(f64::INFINITY, f64::min).sqrt();
-        let mut floor = self.floor_at(x, rim());
-        if nearest < self.resolution {
-            return Ok(Err(Left::ByRounding));
-        }
-        match flaw {
-            Flaw::Angle if nearest < floor => return Ok(Err(Left::ByFloor)),
-            Flaw::Angle => {}
-            Flaw::Size => floor = floor.min(FLOOR * nearest),
-        }
-        self.triangulation.insert(cavity);
-        self.circumcentres += 1;
-        self.add_vertex(x, floor)?;
-        self.test_changed()?;
-        Ok(Ok(()))
     }
 
     /// Notes what was done, and how many triangles are left bad for which reason.

@@ -143,6 +143,9 @@ pub(super) struct NewPoint {
 }
 
 impl NewPoint {
+    /// At most as far from the shortest edge as that is long; still as far from all vertices.
+    pub const BESIDE: Self = Self { height: Some(1.0) };
+
     pub fn new(parameters: &DelaunayRefinement) -> Self {
         let half = 0.5 * parameters.angle.to_radians();
         Self {
