@@ -175,17 +175,16 @@ pub(super) struct Row {
     pub half: DVec2,
 }
 
-/// The rows of a leaf, from below.
-pub(super) fn rows(mesher: &QuadtreeMis, number: usize, leaf: &Leaf) -> impl Iterator<Item = Row> {
-    let half = leaf.half / f64::from(mesher.oversample);
-    let (centre, bottom) = (leaf.centre, leaf.centre.y - leaf.half);
-    let half = DVec2::new(leaf.half, half);
-    (0..mesher.oversample).map(move |row| Row {
-        leaf: number,
-        number: row,
-        centre: DVec2::new(centre.x, bottom + f64::from(2 * row + 1) * half.y),
+/// A row of the samples of a leaf; its number counts from below.
+pub(super) fn row(mesher: &QuadtreeMis, leaf: usize, place: &Leaf, number: u32) -> Row {
+    let half = DVec2::new(place.half, place.half / f64::from(mesher.oversample));
+    let bottom = place.centre.y - place.half;
+    Row {
+        leaf,
+        number,
+        centre: DVec2::new(place.centre.x, bottom + f64::from(2 * number + 1) * half.y),
         half,
-    })
+    }
 }
 
 /// The samples of a row, from the left.

@@ -5,11 +5,11 @@
 //! before. Whether a sample is covered is asked of the few circles that reach into its leaf, looked up once a row of the
 //! leaf, and s is evaluated only for samples that are chosen.
 
-use super::Field;
 use super::balance::{Leaf, Quadtree};
-use super::circles::{Row, rows, samples};
+use super::circles::{Row, row, samples};
 use super::independent_set::Order;
 use super::tiles::Tile;
+use super::{Field, QuadtreeMis};
 use crate::geometry::near::{Disc, DiscGrid, Near};
 use crate::geometry::{DVec2, tolerance};
 use crate::meshers::MeshError;
@@ -135,20 +135,16 @@ pub(super) fn interior(
     let stream = field.seed.wrapping_add((number as u64 + 1).wrapping_mul(STREAM));
     let mut random = Pcg64::seed_from_u64(stream);
     let leaf = |number: usize| &tree.leaves[tile.leaves[number] as usize];
-    let mut rows: Vec<Row> = (0..tile.leaves.len())
-        .flat_map(|number| rows(field.mesher, number, leaf(number)))
-        .collect();
-    match field.mesher.order {
-        Order::Insertion => {
-            let place = |row: &Row| (row.centre.y, row.centre.x);
-            rows.sort_by(|one, other| {
-                let (one, other) = (place(one), place(other));
-                one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1))
-            });
+    let numbers: Vec<usize> = (0..tile.leaves.len()).collect();
+    let rows = match field.mesher.order {
+        Order::Insertion => from_below(field.mesher, numbers, leaf),
+        Order::Spacing => {
+            let mut numbers = numbers;
+            numbers.sort_by(|&one, &other| leaf(one).radius.total_cmp(&leaf(other).radius));
+            leaf_by_leaf(field.mesher, &numbers, leaf)
         }
-        Order::Spacing => rows.sort_by(|one, other| leaf(one.leaf).radius.total_cmp(&leaf(other.leaf).radius)),
-        Order::Degree | Order::Random => {}
-    }
+        Order::Degree | Order::Random => leaf_by_leaf(field.mesher, &numbers, leaf),
+    };
     let mut walk = Walk {
         picker: Picker::new(field, tree, circles, elsewhere),
         leaves: &tile.leaves,
@@ -166,6 +162,37 @@ pub(super) fn interior(
         free = ranked.into_iter().map(|(_, sample)| sample).collect();
     }
     walk.one_by_one(&free)
+}
+
+/// The rows of leaves, one leaf after the other.
+fn leaf_by_leaf<'a>(mesher: &QuadtreeMis, leaves: &[usize], place: impl Fn(usize) -> &'a Leaf) -> Vec<Row> {
+    let rows = |&leaf: &usize| (0..mesher.oversample).map(move |number| (leaf, number));
+    let rows = leaves.iter().flat_map(rows);
+    rows.map(|(leaf, number)| row(mesher, leaf, place(leaf), number))
+        .collect()
+}
+
+/// The rows of leaves from below, and from left to right.
+fn from_below<'a>(mesher: &QuadtreeMis, mut leaves: Vec<usize>, place: impl Fn(usize) -> &'a Leaf) -> Vec<Row> {
+    let band = |leaf: usize| (place(leaf).rect().min.y, place(leaf).half);
+    leaves.sort_by(|&one, &other| {
+        let ([y, other_y], [x, other_x]) = ([one, other].map(band), [one, other].map(|leaf| place(leaf).centre.x));
+        y.0.total_cmp(&other_y.0)
+            .then(y.1.total_cmp(&other_y.1))
+            .then(x.total_cmp(&other_x))
+    });
+    // Leaves of one size that stand side by side have their rows in order already, which the sort makes use of.
+    let mut rows = Vec::with_capacity(leaves.len() * mesher.oversample as usize);
+    for band in leaves.chunk_by(|&one, &other| band(one) == band(other)) {
+        for number in 0..mesher.oversample {
+            rows.extend(band.iter().map(|&leaf| row(mesher, leaf, place(leaf), number)));
+        }
+    }
+    rows.sort_by(|one, other| {
+        let (one, other) = (one.centre, other.centre);
+        one.y.total_cmp(&other.y).then(one.x.total_cmp(&other.x))
+    });
+    rows
 }
 
 /// Sets the random numbers of tiles apart.
@@ -203,15 +230,28 @@ impl Walk<'_, '_, '_> {
         !self.is_done[leaf]
     }
 
+    /// Row by row. A row is passed over without a look at the circles around its leaf where, at the last look, one of
+    /// them covered it: most are.
     fn row_by_row(&mut self, rows: &[Row], random: &mut Pcg64) -> Result<usize, MeshError> {
-        let mut looked_at = 0;
+        let (picker, mut looked_at) = (&mut self.picker, 0);
+        let mut next_row = vec![0; self.leaves.len()];
         for row in rows {
-            if self.turn_to(row.leaf) && !self.picker.is_box_covered(row.centre, row.half) {
-                for x in samples(self.picker.field.mesher, row, random) {
+            if row.number < next_row[row.leaf] {
+                continue;
+            }
+            picker.turn_to(self.leaves[row.leaf]);
+            if !picker.is_box_covered(row.centre, row.half) {
+                for x in samples(picker.field.mesher, row, random) {
                     looked_at += 1;
-                    self.picker.pick(x)?;
+                    picker.pick(x)?;
                 }
             }
+            let above = (1..).map(|step| row.centre + DVec2::new(0.0, f64::from(2 * step) * row.half.y));
+            let left = picker.field.mesher.oversample - row.number;
+            let covered = above
+                .take(left as usize)
+                .take_while(|&centre| picker.is_box_covered(centre, row.half));
+            next_row[row.leaf] = row.number + 1 + covered.count() as u32;
         }
         Ok(looked_at)
     }

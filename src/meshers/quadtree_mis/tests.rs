@@ -1,7 +1,7 @@
 //! What the certificate does not see: the quadtree, that the set is independent and maximal, the orders, refusals.
 
 use super::balance::{Leaf, Quadtree, balance};
-use super::circles::{circles, rows, samples};
+use super::circles::{circles, row, samples};
 use super::*;
 use crate::domain::{Pslg, gallery};
 use crate::geometry::DVec2;
@@ -169,7 +169,8 @@ proptest! {
         let mut candidates: Vec<DVec2> = circles(&field).expect("candidates").iter().map(|c| c.disc.centre).collect();
         let mut random = Pcg64::seed_from_u64(0);
         for leaf in &tree_of(&mesher, &domain, &*spacing).leaves {
-            for row in rows(&mesher, 0, leaf) {
+            for number in 0..mesher.oversample {
+                let row = row(&mesher, 0, leaf, number);
                 candidates.extend(samples(&mesher, &row, &mut random).filter(|&x| domain.contains(x)));
             }
         }

@@ -59,10 +59,12 @@ impl Tiles {
             tree,
             t,
             tiles: Vec::new(),
+            waiting: Vec::new(),
             tile_at: FxHashMap::default(),
         };
-        if let Some(all) = cutter.group(0, tree.root) {
-            cutter.close(0, all);
+        if cutter.group(0, tree.root) {
+            let all = std::mem::take(&mut cutter.waiting);
+            cutter.close(0, tree.root, all);
         }
         cutter.join_neighbours();
         for disc in boundary.discs() {
@@ -141,46 +143,44 @@ struct Cutter<'a> {
     tree: &'a Quadtree,
     t: f64,
     tiles: Vec<Tile>,
+    /// Leaves that are in no tile yet.
+    waiting: Vec<u32>,
     /// The tile of each node that has one.
     tile_at: FxHashMap<u32, usize>,
 }
 
-/// The leaves below a node that are in no tile yet.
-struct Group {
-    cell: Rect,
-    leaves: Vec<u32>,
-}
-
 impl Cutter<'_> {
-    /// The leaves below `node`, if they are few enough for one tile; else tiles are made of its quarters.
-    fn group(&mut self, node: u32, cell: Rect) -> Option<Group> {
-        match self.tree.nodes[node as usize] {
-            Node::Outside => Some(Group {
-                cell,
-                leaves: Vec::new(),
-            }),
-            Node::Leaf(leaf) => Some(Group {
-                cell,
-                leaves: vec![leaf],
-            }),
-            Node::Inner(first) => {
-                let quarters = cell.quarters();
-                let groups = [0, 1, 2, 3].map(|k| self.group(first + k, quarters[k as usize]));
-                let count: usize = groups.iter().flatten().map(|group| group.leaves.len()).sum();
-                if count <= MOST_LEAVES && groups.iter().all(Option::is_some) {
-                    let leaves = groups.into_iter().flatten().flat_map(|group| group.leaves).collect();
-                    return Some(Group { cell, leaves });
-                }
-                for (group, child) in groups.into_iter().zip(first..) {
-                    group.into_iter().for_each(|group| self.close(child, group));
-                }
-                None
+    /// Notes the leaves below `node` as waiting, and says so, if they are few enough for one tile; else makes tiles of its
+    /// quarters.
+    fn group(&mut self, node: u32, cell: Rect) -> bool {
+        let first = match self.tree.nodes[node as usize] {
+            Node::Outside => return true,
+            Node::Leaf(leaf) => {
+                self.waiting.push(leaf);
+                return true;
             }
+            Node::Inner(first) => first,
+        };
+        let start = self.waiting.len();
+        let (quarters, mut all_wait) = (cell.quarters(), true);
+        let groups = [0, 1, 2, 3].map(|k| {
+            let (from, quarter) = (self.waiting.len(), quarters[k as usize]);
+            all_wait &= self.group(first + k, quarter);
+            (first + k, quarter, from..self.waiting.len())
+        });
+        if all_wait && self.waiting.len() - start <= MOST_LEAVES {
+            return true;
         }
+        for (child, quarter, range) in groups {
+            let leaves = self.waiting[range].to_vec();
+            self.close(child, quarter, leaves);
+        }
+        self.waiting.truncate(start);
+        false
     }
 
-    /// Makes a tile of a group, if there is anything in it.
-    fn close(&mut self, node: u32, Group { cell, leaves }: Group) {
+    /// Makes a tile of leaves, if there are any.
+    fn close(&mut self, node: u32, cell: Rect, leaves: Vec<u32>) {
         if leaves.is_empty() {
             return;
         }
