@@ -160,10 +160,8 @@ pub(super) fn feature_size_at(domain: &Domain, vertex: usize) -> f64 {
         let [a, b] = domain.ends(wedge.from);
         a.distance(b)
     });
-    let isolated = domain
-        .isolated()
-        .iter()
-        .map(|&other| x.distance(domain.vertices()[other]));
+    let others = domain.isolated().iter().filter(|&&other| other != vertex);
+    let isolated = others.map(|&other| x.distance(domain.vertices()[other]));
     let nearest = nearest.map_or(f64::INFINITY, |(_, distance)| distance);
     own.chain(isolated).fold(nearest, f64::min)
 }
