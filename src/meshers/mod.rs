@@ -117,14 +117,25 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     MESHERS.iter().find(|entry| entry.name == name)
 }
 
+/// Names the first parameter out of its range, of some with their values, least and most.
+fn within(ranges: &[(&str, f64, f64, f64)]) -> Result<(), String> {
+    match ranges
+        .iter()
+        .find(|(_, value, least, most)| !(least..=most).contains(&value))
+    {
+        Some((name, value, least, most)) => Err(format!("{name} is {value}: it must be from {least} to {most}")),
+        None => Ok(()),
+    }
+}
+
 /// A mesher's struct from its parameters by serde, for [`Entry::make`].
 fn from_parameters<M: Mesher + serde::de::DeserializeOwned + 'static>(
     parameters: &Parameters,
 ) -> Result<Box<dyn Mesher>, String> {
     let value = serde_json::Value::Object(parameters.clone());
-    serde_json::from_value::<M>(value)
-        .map(|mesher| Box::new(mesher) as Box<dyn Mesher>)
-        .map_err(|error| error.to_string())
+    let mesher: M = serde_json::from_value(value).map_err(|error| error.to_string())?;
+    mesher.check()?;
+    Ok(Box::new(mesher))
 }
 
 /// What is asked of a mesher besides domain and spacing.
@@ -201,6 +212,11 @@ impl Trace {
 
 /// A mesh generator: a struct of its paper's parameters.
 pub trait Mesher: Send + Sync {
+    /// Whether all parameters are in their ranges; the error names the one that is not.
+    fn check(&self) -> Result<(), String> {
+        Ok(())
+    }
+
     /// Meshes `domain` with edges of about c_b f. Equal input gives bit-equal output.
     fn mesh(
         &self,

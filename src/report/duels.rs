@@ -10,11 +10,11 @@ use crate::experiment::summary::{Setting, median, setting};
 #[derive(Clone, Copy)]
 pub(super) struct Yardstick {
     pub(super) name: &'static str,
-    value: fn(&Report) -> Option<f64>,
+    pub(super) value: fn(&Report) -> Option<f64>,
     /// 1 where more is better, −1 where less is.
-    sign: f64,
+    pub(super) sign: f64,
     /// Whether it says something at equal count too.
-    at_equal_count: bool,
+    pub(super) at_equal_count: bool,
 }
 
 /// Angles first; then size, gaps, time.

@@ -12,6 +12,7 @@ mod markdown;
 mod meshes;
 mod page;
 mod quote;
+mod ranks;
 mod rivals;
 mod sections;
 

@@ -7,6 +7,7 @@ use super::figures::{Chart, Section};
 use super::findings::{grids, of_group, spread, tally};
 use super::markdown::{number, parameter, plain, table};
 use super::meshes::Picture;
+use super::ranks;
 use super::rivals;
 use super::sections;
 use crate::experiment::record::{Outcome, Row};
@@ -44,7 +45,7 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
         ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
         (
             "Where biting wins, where it loses, and why",
-            duels::duels(rows),
+            duels::duels(rows) + &ranks::ranks(rows),
             Section::Duels,
         ),
         (
@@ -102,6 +103,7 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
         .into_iter()
         .flatten()
         .chain(compared)
+        .chain(ranks::rank_finding(rows))
         .chain(claims.into_iter().flatten());
     lines.map(|line| format!("* {line}\n")).collect()
 }

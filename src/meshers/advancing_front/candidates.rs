@@ -273,6 +273,9 @@ const SHORT_BASE: f64 = 0.9;
 /// An edge of this share of δ₁ is not too short yet.
 const SHORT: f64 = 1.0;
 
+/// How far towards the middle of a triangle counts as inside of it: far beyond rounding, and near to its side.
+const INWARD: f64 = 1e-6;
+
 /// How far around a cleft the front is looked at, as a share of the base.
 const CLEFT_ROOM: f64 = 0.25;
 
@@ -320,9 +323,11 @@ impl Trial<'_> {
         }
         let mut room = f64::INFINITY;
         if !corners[0] && !self.base.around.contains(&edge.from) {
+            let inside = (self.base.a + self.base.b + self.at) / 3.0;
             for (end, corner) in [self.base.a, self.base.b].into_iter().enumerate() {
                 let foot = closest_on_segment([corner, self.at], edge.p);
-                if !self.closes[end] && edge.sees(foot) {
+                // From a little inside the triangle: a node on the side sees nothing of the side itself.
+                if !self.closes[end] && edge.sees(foot.lerp(inside, INWARD)) {
                     room = room.min(foot.distance(edge.p) / (HEIGHT * self.sides[end].min(edge.size)));
                 }
             }

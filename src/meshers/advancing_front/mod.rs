@@ -69,7 +69,7 @@ mod rows;
 mod tests;
 
 use super::sizing::Sizing;
-use super::{Entry, MeshError, Mesher, Monitor, Parameter, Parameters, Request, Trace};
+use super::{Entry, MeshError, Mesher, Monitor, Parameter, Request, Trace, from_parameters, within};
 use crate::domain::Domain;
 use crate::mesh::Mesh;
 use crate::spacing::Spacing;
@@ -189,29 +189,8 @@ pub(super) const ENTRY: Entry = Entry {
         ),
     ],
     guarantees: &[],
-    make,
+    make: from_parameters::<AdvancingFront>,
 };
-
-/// The mesher from its parameters; the error names the one that is out of its range.
-fn make(parameters: &Parameters) -> Result<Box<dyn Mesher>, String> {
-    let value = serde_json::Value::Object(parameters.clone());
-    let method: AdvancingFront = serde_json::from_value(value).map_err(|error| error.to_string())?;
-    let ranges = [
-        ("search", method.search, 0.5, 10.0),
-        ("cleft", method.cleft, 0.0, 120.0),
-        ("accept", method.accept, 0.0, 60.0),
-        ("low", method.low, 0.5, 1.0),
-        ("high", method.high, 1.0, 10.0),
-        ("smooth", f64::from(method.smooth), 0.0, 1000.0),
-    ];
-    match ranges
-        .iter()
-        .find(|(_, value, low, high)| !(low..=high).contains(&value))
-    {
-        Some((name, value, low, high)) => Err(format!("{name} is {value}: it must be from {low} to {high}")),
-        None => Ok(Box::new(method)),
-    }
-}
 
 /// What happened on the way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -242,6 +221,17 @@ impl Tally {
 }
 
 impl Mesher for AdvancingFront {
+    fn check(&self) -> Result<(), String> {
+        within(&[
+            ("search", self.search, 0.5, 10.0),
+            ("cleft", self.cleft, 0.0, 120.0),
+            ("accept", self.accept, 0.0, 60.0),
+            ("low", self.low, 0.5, 1.0),
+            ("high", self.high, 1.0, 10.0),
+            ("smooth", f64::from(self.smooth), 0.0, 1000.0),
+        ])
+    }
+
     fn mesh(
         &self,
         domain: &Domain,

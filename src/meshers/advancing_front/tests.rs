@@ -5,6 +5,7 @@ use super::*;
 use crate::domain::gallery;
 use crate::mesh::Piece;
 use crate::meshers::Budget;
+use crate::meshers::Parameters;
 use crate::quality::{Certificate, Statistics, judge};
 use crate::spacing::{Options, Prepared, build};
 use proptest::prelude::*;
@@ -148,6 +149,21 @@ fn assert_is_mesh(domain: &Domain, mesh: &Mesh) -> (Statistics, Certificate) {
     let broken: Vec<_> = certificate.checks.iter().filter(is_broken).collect();
     assert!(broken.is_empty(), "{broken:#?}");
     (statistics, certificate)
+}
+
+/// Found on the slanted sides of `two-arms`: a new side ran along three nodes that rounding put on one line, its middle
+/// node saw nothing of a side that it lay on, and triangles of 0° filled what was left.
+#[test]
+fn a_side_along_three_collinear_nodes_is_no_side() {
+    let domain = domain("two-arms");
+    let spacing = build("lfs", &domain, &Options::new(0.5, 0.6))
+        .expect("a spacing")
+        .function;
+    let mut trace = Trace::default();
+    let mesh = AdvancingFront::DEFAULT.mesh(&domain, &*spacing, &request(0.6), &mut trace);
+    let (statistics, _) = assert_is_mesh(&domain, &mesh.expect("a mesh"));
+    assert_eq!(counted(&trace, "closed_by_force"), 0.0);
+    assert!(statistics.min_angle_deg > 5.0, "{}", statistics.min_angle_deg);
 }
 
 #[test]

@@ -58,12 +58,12 @@ mod refiner;
 mod tests;
 mod triangles;
 
-use super::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
+use super::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters, within};
 use crate::delaunay::Refinable;
 use crate::domain::Domain;
 use crate::mesh::Mesh;
 use crate::spacing::Spacing;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 /// Where a bad triangle is broken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -113,7 +113,6 @@ pub const LARGEST_ANGLE: f64 = 34.0;
 pub struct DelaunayRefinement {
     /// Smallest angle asked for, degrees, at least 0 and at most [`LARGEST_ANGLE`]. The default is where Chew's second
     /// algorithm is proved to end for sizes well below the features.
-    #[serde(deserialize_with = "angle_in_range")]
     pub angle: f64,
     /// Where a bad triangle is broken.
     pub insertion: Insertion,
@@ -132,15 +131,6 @@ impl Default for DelaunayRefinement {
             size_rule: SizeRule::default(),
         }
     }
-}
-
-fn angle_in_range<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    let angle = f64::deserialize(deserializer)?;
-    if (0.0..=LARGEST_ANGLE).contains(&angle) {
-        return Ok(angle);
-    }
-    let message = format!("angle is {angle}: it must be at least 0 and at most {LARGEST_ANGLE} degrees");
-    Err(serde::de::Error::custom(message))
 }
 
 pub(super) const ENTRY: Entry = Entry {
@@ -177,6 +167,10 @@ pub(super) const ENTRY: Entry = Entry {
 };
 
 impl Mesher for DelaunayRefinement {
+    fn check(&self) -> Result<(), String> {
+        within(&[("angle", self.angle, 0.0, LARGEST_ANGLE)])
+    }
+
     fn mesh(
         &self,
         domain: &Domain,

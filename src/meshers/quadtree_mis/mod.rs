@@ -66,7 +66,7 @@ pub use circles::Sampling;
 pub use independent_set::{Order, Packing};
 
 use super::sizing::Sizing;
-use super::{Entry, Guarantee, MeshError, Mesher, Monitor, Parameter, Parameters, Request, Trace};
+use super::{Entry, Guarantee, MeshError, Mesher, Monitor, Parameter, Request, Trace, from_parameters, within};
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::mesh::Mesh;
@@ -85,7 +85,7 @@ pub struct QuadtreeMis {
     pub sampling: Sampling,
     /// The order in which candidates are looked at.
     pub order: Order,
-    /// Longest side of a leaf over s = c_b f in it, in (0, 1]; sides are between half of that and that. Default 1: "until
+    /// Longest side of a leaf over s = c_b f in it, 1/64 to 1; sides are between half of that and that. Default 1: "until
     /// the leaf is about f"; smaller leaves are the same as more samples, but cost a look at the circles around each.
     pub leaf_side: f64,
     /// Whether to go on sampling where gaps remain until none does.
@@ -128,7 +128,7 @@ pub(super) const ENTRY: Entry = Entry {
         },
         Parameter {
             name: "leaf_side",
-            values: "above 0, at most 1",
+            values: "1/64 to 1",
             default: "1.0",
             help: "longest side of a leaf of the quadtree over s = c_b f",
         },
@@ -150,15 +150,8 @@ pub(super) const ENTRY: Entry = Entry {
         Guarantee::with("nn-point-upper", "complete", "true"),
         Guarantee::with("vertices-lower", "complete", "true"),
     ],
-    make,
+    make: from_parameters::<QuadtreeMis>,
 };
-
-fn make(parameters: &Parameters) -> Result<Box<dyn Mesher>, String> {
-    let value = serde_json::Value::Object(parameters.clone());
-    let mesher: QuadtreeMis = serde_json::from_value(value).map_err(|error| error.to_string())?;
-    mesher.check()?;
-    Ok(Box::new(mesher))
-}
 
 /// What the steps share.
 struct Field<'a> {
@@ -171,20 +164,6 @@ struct Field<'a> {
 }
 
 impl QuadtreeMis {
-    /// Which parameter is out of its range, if one is.
-    fn check(&self) -> Result<(), String> {
-        if !(2..=64).contains(&self.oversample) {
-            return Err(format!("oversample is {}: it must be 2 to 64", self.oversample));
-        }
-        if !(self.leaf_side > 0.0 && self.leaf_side <= 1.0) {
-            return Err(format!(
-                "leaf_side is {}: it must be above 0 and at most 1",
-                self.leaf_side
-            ));
-        }
-        Ok(())
-    }
-
     fn field<'a>(
         &'a self,
         domain: &'a Domain,
@@ -228,7 +207,17 @@ impl QuadtreeMis {
     }
 }
 
+/// Smallest side of a leaf over s: far below it only the work grows.
+const LEAST_LEAF_SIDE: f64 = 1.0 / 64.0;
+
 impl Mesher for QuadtreeMis {
+    fn check(&self) -> Result<(), String> {
+        within(&[
+            ("oversample", f64::from(self.oversample), 2.0, 64.0),
+            ("leaf_side", self.leaf_side, LEAST_LEAF_SIDE, 1.0),
+        ])
+    }
+
     fn mesh(
         &self,
         domain: &Domain,

@@ -7,6 +7,7 @@ use crate::domain::{Pslg, gallery};
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::COVERED;
 use crate::meshers::Budget;
+use crate::meshers::Parameters;
 use crate::quality::{Bounds, Certificate, judge};
 use crate::spacing::{Options, build};
 use proptest::prelude::*;

@@ -2,6 +2,7 @@
 
 use super::super::duels::{YARDSTICKS, duel};
 use super::super::fixture::{lines, measured, row};
+use super::super::ranks::{rank_finding, rankings};
 use super::super::{page, write};
 use crate::experiment::claims::{meetings, samplings};
 use crate::experiment::contest::{Contest, Method, at_equal_count, at_equal_size};
@@ -49,6 +50,28 @@ fn three_domains() -> Vec<Row> {
         }
     }
     rows
+}
+
+#[test]
+fn places_are_by_medians_over_common_tasks() {
+    let rows = three_domains();
+    let rankings = rankings(&at_equal_size(&rows), false);
+    assert_eq!(rankings[0].name, YARDSTICKS[0].name);
+    // Of a and b: ours 10 and 12 above the bound, its variant the same, the rival's 8 and 16.
+    let places = [0, 1, 2].map(|method| rankings[0].place(method).unwrap().0);
+    assert_eq!(places, [2, 2, 1]);
+    let triangles = rankings.iter().find(|ranking| ranking.name == "triangles").unwrap();
+    assert_eq!(
+        [0, 1, 2].map(|method| triangles.place(method).unwrap()),
+        [(1, 1500.0), (1, 1500.0), (3, 3000.0)]
+    );
+    let told = rank_finding(&rows).unwrap();
+    assert!(
+        told.contains("among all 3 methods") && told.contains("2nd with 25.5, behind rival with 26.5"),
+        "{told}"
+    );
+    let without_variant: Vec<Row> = rows.into_iter().filter(|row| row.cell.params.is_empty()).collect();
+    assert_eq!(rank_finding(&without_variant), None);
 }
 
 #[test]
