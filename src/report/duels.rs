@@ -270,48 +270,45 @@ pub(super) fn signed(value: impl Into<Option<f64>>) -> String {
     }
 }
 
-/// The comparison in a line for each rival.
+/// The comparison in a line for each rival: by what ours wins on most tasks, and by what it loses.
 pub(super) fn duel_findings(rows: &[Row]) -> Vec<String> {
     let (size, count) = (at_equal_size(rows), at_equal_count(rows));
     let Some((ours, others)) = rivals(&size) else {
         return Vec::new();
     };
     let line = |rival: usize| {
-        let label = &size.methods[rival].label;
-        let told = duel_words(&size, ours, rival, &YARDSTICKS)?;
-        let mut text = format!(
-            "**{} against {label}.** At equal edge length: {told}.",
-            size.methods[ours].label
-        );
+        let [own, other] = [ours, rival].map(|k| size.methods[k].label.as_str());
+        let told = outcome(&size, ours, rival, false)?;
+        let mut text = format!("**{own} : {other}**, at equal edge length: {told}");
         let twin = |label: &str| count.methods.iter().position(|method| method.label == label);
-        if let (Some(ours), Some(rival)) = (twin(&size.methods[ours].label), twin(label)) {
-            let wanted = YARDSTICKS
-                .iter()
-                .filter(|by| by.at_equal_count)
-                .copied()
-                .collect::<Vec<_>>();
-            if let Some(told) = duel_words(&count, ours, rival, &wanted) {
-                text += &format!(" At equal triangle count: {told}.");
-            }
+        if let (Some(ours), Some(rival)) = (twin(own), twin(other)) {
+            let told = outcome(&count, ours, rival, true);
+            text += &told.map_or_else(String::new, |told| format!(" At equal triangle count: {told}"));
         }
         Some(text)
     };
     others.into_iter().filter_map(line).collect()
 }
 
-/// Each yardstick in some words.
-fn duel_words(contest: &Contest, ours: usize, rival: usize, by: &[Yardstick]) -> Option<String> {
-    let words = by.iter().filter_map(|by| {
-        let duel = duel(contest, ours, rival, *by)?;
-        Some(format!(
-            "{} {} against {}, better in {} of {}",
-            by.name,
-            number(duel.ours),
-            number(duel.theirs),
-            duel.better,
-            duel.of
-        ))
-    });
-    let words: Vec<String> = words.collect();
-    (!words.is_empty()).then(|| words.join("; "))
+/// "better in … ; worse in … ; even in …": each yardstick with both medians and on how many tasks ours is better.
+fn outcome(contest: &Contest, ours: usize, rival: usize, is_count: bool) -> Option<String> {
+    let wanted = YARDSTICKS.iter().filter(|by| by.at_equal_count || !is_count);
+    let duels: Vec<(&str, Duel)> = wanted
+        .filter_map(|by| Some((by.name, duel(contest, ours, rival, *by)?)))
+        .collect();
+    let part = |words: &str, belongs: fn(&Duel) -> bool| {
+        let told = duels.iter().filter(|(_, duel)| belongs(duel)).map(|(name, duel)| {
+            let (own, other) = (number(duel.ours), number(duel.theirs));
+            format!("{name} {own} : {other} ({} of {})", duel.better, duel.of)
+        });
+        let told: Vec<String> = told.collect();
+        (!told.is_empty()).then(|| format!("{words} {}", told.join(", ")))
+    };
+    let parts = [
+        part("better in", |duel| duel.better > duel.worse),
+        part("worse in", |duel| duel.better < duel.worse),
+        part("even in", |duel| duel.better == duel.worse),
+    ];
+    let told: Vec<String> = parts.into_iter().flatten().collect();
+    (!told.is_empty()).then(|| format!("{}.", told.join("; ")))
 }

@@ -130,6 +130,24 @@ fn angles_are_as_asked_and_no_piece_is_encroached_upon() {
 }
 
 #[test]
+fn angles_are_as_asked_on_the_whole_gallery_away_from_acute_vertices() {
+    use {Encroachment::*, Insertion::*};
+    for name in gallery::ENTRIES.iter().map(|entry| entry.name) {
+        let domain = domain(name);
+        for mesher in [
+            angles_only(20.7, Circumcentre, DiametralCircle),
+            angles_only(28.6, OffCentre, Lens),
+        ] {
+            let free = run(&mesher, &domain, &Uniform(1e6)).statistics.min_angle_free_deg;
+            assert!(
+                free.is_some_and(|free| free >= mesher.angle - 1e-9),
+                "{mesher:?} on {name}: {free:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn diametral_circles_make_the_mesh_delaunay_and_lenses_need_fewer_points() {
     let domain = domain("comb");
     let of = |encroachment| {

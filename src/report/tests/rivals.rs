@@ -270,13 +270,12 @@ fn the_page_sets_meshers_side_by_side() {
 #[test]
 fn the_findings_tell_of_every_rival() {
     let told = page::finding_lines(&everything());
-    let line = told
-        .lines()
-        .find(|line| line.contains("**biting against rival.**"))
-        .unwrap();
+    let line = told.lines().find(|line| line.contains("**biting : rival**")).unwrap();
     assert!(
-        line.contains("better in 1 of 2") && line.contains("At equal triangle count"),
+        line.contains("; even in smallest angle (°)")
+            && line.contains("(1 of 2)")
+            && line.contains("At equal triangle count"),
         "{line}"
     );
-    assert!(told.contains("**biting against front.**"), "{told}");
+    assert!(told.contains("**biting : front**"), "{told}");
 }
