@@ -6,7 +6,7 @@ use biting::geometry::DVec2;
 use biting::mesh::Mesh;
 use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace, parameter_value};
 use biting::quality::{Bounds, judge};
-use biting::spacing::{self, Options, Prepared};
+use biting::spacing::{self, Options, Prepared, Spacing};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
@@ -244,6 +244,36 @@ fn a_budget_ends_in_an_error_that_says_where() {
             }
             other => panic!("{}: {other:?}", entry.name),
         }
+    }
+}
+
+/// A spacing that breaks its promise at one half of the unit square.
+struct Broken(f64);
+
+impl Spacing for Broken {
+    fn at(&self, x: DVec2) -> f64 {
+        if x.x < 0.5 { 0.1 } else { self.0 }
+    }
+
+    fn lipschitz(&self) -> f64 {
+        0.1
+    }
+}
+
+#[test]
+fn a_spacing_that_breaks_its_promise_is_told_with_the_place() {
+    let pslg = gallery::pslg("unit-square").expect("a gallery name").expect("a domain");
+    let square = Domain::new(pslg).expect("a valid domain");
+    for entry in MESHERS {
+        let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+        for value in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+            let told = mesher.mesh(&square, &Broken(value), &request(1), &mut Trace::default());
+            let is_told = matches!(told, Err(MeshError::Spacing { x, .. }) if x >= 0.5);
+            assert!(is_told, "{} with {value}: {told:?}", entry.name);
+        }
+        let told = mesher.mesh(&square, &Broken(1e-14), &request(1), &mut Trace::default());
+        let is_told = matches!(&told, Err(MeshError::Declined(reason)) if reason.contains("resolve"));
+        assert!(is_told, "{}: {told:?}", entry.name);
     }
 }
 

@@ -5,6 +5,7 @@ pub mod files;
 
 pub use adjacency::{Adjacency, Edge, Lists, NONE};
 
+use crate::domain::Domain;
 use crate::geometry::DVec2;
 
 /// A piece of an input segment that became a mesh edge.
@@ -16,6 +17,28 @@ pub struct Piece {
     pub b: u32,
     /// The input segment it lies on, an index into [`crate::domain::Domain::segments`].
     pub segment: u32,
+}
+
+impl Piece {
+    /// The chains of mesh edges along all segments, given for each segment the vertices on it with their distances from
+    /// its first end, in any order.
+    pub fn chains(domain: &Domain, cuts: impl IntoIterator<Item = Vec<(f64, u32)>>) -> Vec<Self> {
+        let mut pieces = Vec::new();
+        for (segment, mut cuts) in cuts.into_iter().enumerate() {
+            cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
+            let ends = domain.segments()[segment];
+            let mut before = ends.a as u32;
+            for next in cuts.into_iter().map(|(_, vertex)| vertex).chain([ends.b as u32]) {
+                pieces.push(Self {
+                    a: before,
+                    b: next,
+                    segment: segment as u32,
+                });
+                before = next;
+            }
+        }
+        pieces
+    }
 }
 
 /// A conforming triangle mesh. The domain's vertices come first, in order.

@@ -32,7 +32,7 @@ pub(super) fn edge_protection(front: &mut Front) -> Result<Vec<Piece>, MeshError
         cuts[gap.segment].push((gap.along_segment(position), front.bite_boundary(disc)?));
         gaps.extend(gap.without(position, disc.radius));
     }
-    Ok(pieces(front, cuts))
+    Ok(Piece::chains(front.domain, cuts))
 }
 
 /// A part of a segment that may be uncovered, seen from the end at which it is bitten next.
@@ -169,24 +169,4 @@ impl Gap {
             .filter(|part| part.low <= part.high)
             .map(Self::turned)
     }
-}
-
-/// Chains of mesh edges along each segment, from the positions of the centres on it.
-fn pieces(front: &Front, cuts: Vec<Vec<(f64, u32)>>) -> Vec<Piece> {
-    let mut pieces = Vec::new();
-    for (segment, mut cuts) in cuts.into_iter().enumerate() {
-        cuts.sort_by(|first, second| first.0.total_cmp(&second.0));
-        let ends = front.domain.segments()[segment];
-        let chain = cuts.into_iter().map(|(_, id)| id).chain([ends.b as u32]);
-        let mut before = ends.a as u32;
-        for next in chain {
-            pieces.push(Piece {
-                a: before,
-                b: next,
-                segment: segment as u32,
-            });
-            before = next;
-        }
-    }
-    pieces
 }

@@ -136,39 +136,6 @@ fn a_spacing_too_steep_is_declined() {
     );
 }
 
-/// A spacing that breaks its promise at one half of the domain.
-struct Broken(f64);
-
-impl Spacing for Broken {
-    fn at(&self, x: DVec2) -> f64 {
-        if x.x < 0.5 { 0.1 } else { self.0 }
-    }
-
-    fn lipschitz(&self) -> f64 {
-        0.1
-    }
-}
-
-#[test]
-fn a_spacing_that_breaks_its_promise_is_told_with_the_place() {
-    for value in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-        let told = Biting::default().mesh(&square(), &Broken(value), &request(1.0), &mut Trace::default());
-        assert!(
-            matches!(told, Err(MeshError::Spacing { x, .. }) if x >= 0.5),
-            "{value}: {told:?}"
-        );
-    }
-}
-
-#[test]
-fn a_size_below_the_resolution_of_coordinates_is_declined() {
-    let told = Biting::default().mesh(&square(), &Broken(1e-14), &request(1.0), &mut Trace::default());
-    assert!(
-        matches!(&told, Err(MeshError::Declined(reason)) if reason.contains("resolve")),
-        "{told:?}"
-    );
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
     /// Packing and coverage need nothing of the domain: any spacing, any order, any seed.

@@ -145,23 +145,9 @@ impl<'a, 'b> Boundary<'a, 'b> {
         Ok(None)
     }
 
-    /// The chain of mesh edges along each segment.
+    /// The chains of mesh edges along all segments; leaves none of the cuts.
     pub fn pieces(&mut self) -> Vec<Piece> {
-        let mut pieces = Vec::new();
-        for (segment, cuts) in self.cuts.iter_mut().enumerate() {
-            cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
-            let ends = self.field.domain.segments()[segment];
-            let mut before = ends.a as u32;
-            for next in cuts.iter().map(|cut| cut.1).chain([ends.b as u32]) {
-                pieces.push(Piece {
-                    a: before,
-                    b: next,
-                    segment: segment as u32,
-                });
-                before = next;
-            }
-        }
-        pieces
+        Piece::chains(self.field.domain, std::mem::take(&mut self.cuts))
     }
 }
 

@@ -329,36 +329,6 @@ fn a_spacing_too_steep_is_declined() {
     );
 }
 
-/// A spacing that breaks its promise at one half of the domain.
-struct Broken(f64);
-
-impl Spacing for Broken {
-    fn at(&self, x: DVec2) -> f64 {
-        if x.x < 0.5 { 0.1 } else { self.0 }
-    }
-
-    fn lipschitz(&self) -> f64 {
-        0.1
-    }
-}
-
-#[test]
-fn a_spacing_that_breaks_its_promise_is_told_with_the_place() {
-    let domain = domain("unit-square");
-    for value in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-        let told = QuadtreeMis::default().mesh(&domain, &Broken(value), &REQUEST, &mut Trace::default());
-        assert!(
-            matches!(told, Err(MeshError::Spacing { x, .. }) if x >= 0.5),
-            "{value}: {told:?}"
-        );
-    }
-    let told = QuadtreeMis::default().mesh(&domain, &Broken(1e-14), &REQUEST, &mut Trace::default());
-    assert!(
-        matches!(&told, Err(MeshError::Declined(reason)) if reason.contains("resolve")),
-        "{told:?}"
-    );
-}
-
 #[test]
 fn a_budget_ends_the_quadtree_too() {
     let domain = domain("unit-square");
