@@ -52,6 +52,9 @@ pub struct PlanError {
     pub problem: String,
 }
 
+/// Most cells of a plan: a few lists combine to more than any memory holds.
+const MOST_CELLS: usize = 1_000_000;
+
 /// An experiment as read from its file.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -181,12 +184,23 @@ impl Plan {
     /// Every cell, in the order of the rows.
     ///
     /// # Errors
-    /// [`PlanError`] for an empty list, a bad number, or a cell that stands in a group twice.
+    /// [`PlanError`] for an empty list, a bad number, a cell that stands in a group twice, or more cells than memory is
+    /// for.
     pub fn cells(&self) -> Result<Vec<PlannedCell>, PlanError> {
         let error = |problem: String| PlanError {
             file: self.file.clone(),
             problem,
         };
+        let combinations = self
+            .groups
+            .iter()
+            .map(Group::combinations)
+            .fold(0, usize::saturating_add);
+        if combinations > MOST_CELLS {
+            return Err(error(format!(
+                "the lists combine to {combinations} cells; at most {MOST_CELLS} are run"
+            )));
+        }
         let mut cells = Vec::new();
         let mut keys = BTreeSet::new();
         for group in &self.groups {

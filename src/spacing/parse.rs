@@ -45,7 +45,7 @@ impl Spec {
     /// # Errors
     /// [`SpacingError::Parse`] with the column, [`SpacingError::UnknownKind`] with the kinds there are.
     pub fn parse(text: &str) -> Result<Self, SpacingError> {
-        Reader { whole: text }.spec(0, text.len())
+        Reader { whole: text, open: 0 }.spec(0, text.len())
     }
 
     /// Whether the spacing is nowhere above lfs by its own definition.
@@ -71,8 +71,13 @@ pub fn spec_for_size(expression: &str, c_b: f64) -> Result<String, SpacingError>
     Ok(format!("expr:({})/{c_b}", expression.trim()))
 }
 
+/// How deep `min` may nest: keeps the stack small, here and wherever a [`Spec`] is walked.
+const NESTING: usize = 64;
+
 struct Reader<'a> {
     whole: &'a str,
+    /// How many `min(` are open.
+    open: usize,
 }
 
 impl Reader<'_> {
@@ -86,7 +91,7 @@ impl Reader<'_> {
     }
 
     /// The SPEC between two byte offsets.
-    fn spec(&self, from: usize, to: usize) -> Result<Spec, SpacingError> {
+    fn spec(&mut self, from: usize, to: usize) -> Result<Spec, SpacingError> {
         let text = &self.whole[from..to];
         let from = from + text.len() - text.trim_start().len();
         let text = text.trim();
@@ -122,7 +127,13 @@ impl Reader<'_> {
             .map(str::trim_start)
             .filter(|rest| rest.starts_with('('))
         {
-            return self.min(from + text.len() - rest.len() + 1, from + text.len());
+            if self.open == NESTING {
+                return Err(self.error(from, "`min` is nested too deeply"));
+            }
+            self.open += 1;
+            let spec = self.min(from + text.len() - rest.len() + 1, from + text.len());
+            self.open -= 1;
+            return spec;
         }
         Err(SpacingError::UnknownKind {
             kind: text.into(),
@@ -131,7 +142,7 @@ impl Reader<'_> {
     }
 
     /// The parts of a `min(` whose inside starts at `from`, up to the `)` that must end the text.
-    fn min(&self, from: usize, to: usize) -> Result<Spec, SpacingError> {
+    fn min(&mut self, from: usize, to: usize) -> Result<Spec, SpacingError> {
         let mut parts = Vec::new();
         let mut start = from;
         let mut open = 0;
@@ -203,6 +214,16 @@ mod tests {
         assert!(error("min(lfs, lfs").ends_with("column 13: `)` expected to end `min(`"));
         assert!(error("min(lfs)").ends_with("column 8: `min` takes two or more"));
         assert!(error("min(lfs, lfs) + 1").ends_with("column 14: nothing expected after `min(…)`"));
+    }
+
+    #[test]
+    fn min_in_min_without_end_does_not_overflow_the_stack() {
+        let nested = |depth: usize| format!("{}lfs{}", "min(lfs,".repeat(depth), ")".repeat(depth));
+        assert!(Spec::parse(&nested(NESTING)).is_ok());
+        for depth in [NESTING + 1, 100_000] {
+            let error = Spec::parse(&nested(depth)).unwrap_err().to_string();
+            assert!(error.ends_with("column 513: `min` is nested too deeply"));
+        }
     }
 
     #[test]

@@ -95,6 +95,22 @@ impl Group {
         Some(self)
     }
 
+    /// How many combinations its lists have.
+    pub(super) fn combinations(&self) -> usize {
+        let methods = self.methods.as_ref().map_or(1, Vec::len);
+        let params = self.params.as_ref().map_or(1, Vec::len);
+        let lists = [
+            self.domains.len(),
+            self.spacings.len(),
+            self.t.len(),
+            self.c_b.len(),
+            self.seeds.len(),
+        ];
+        lists
+            .into_iter()
+            .fold(methods.saturating_mul(params), usize::saturating_mul)
+    }
+
     /// The group's cells, domain by domain, within a domain spacing by spacing, within a spacing method by method.
     pub(super) fn cells(&self, budget: CellBudget) -> Result<Vec<PlannedCell>, String> {
         if self.timed && self.repeats == 0 {

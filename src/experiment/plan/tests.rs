@@ -114,3 +114,18 @@ fn mistakes_are_named_with_file_and_place() {
         "{missing}"
     );
 }
+
+#[test]
+fn lists_that_combine_to_more_cells_than_memory_holds_are_refused() {
+    let numbers = |count: usize| (1..=count).map(|k| k.to_string()).collect::<Vec<_>>().join(", ");
+    let many = numbers(2000);
+    let text = format!(
+        "question = \"?\"\n[[group]]\nname = \"g\"\ndomains = [\"comb\"]\nspacings = [\"lfs\"]\nmesher = \"biting\"\n\
+         t = [{many}]\nc_b = [{many}]\nseeds = [{many}]\n"
+    );
+    let problem = read(&text).expect_err("too many cells").problem;
+    assert_eq!(
+        problem,
+        "the lists combine to 8000000000 cells; at most 1000000 are run"
+    );
+}

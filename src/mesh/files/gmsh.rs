@@ -267,7 +267,7 @@ impl Reader<'_> {
             }
             for tag in tags {
                 self.add_node(tag)?;
-                for _ in 0..parametric * dimension {
+                for _ in 0..parametric.saturating_mul(dimension) {
                     self.words.number::<f64>("parameter")?;
                 }
             }

@@ -209,6 +209,15 @@ fn gmsh_2_is_understood() {
     assert_eq!((mesh.triangles, mesh.regions), (vec![[0, 1, 2]], vec![0.5]));
 }
 
+#[test]
+fn gmsh_parameters_beyond_counting_do_not_overflow() {
+    let largest = usize::MAX;
+    let text = format!(
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 1 1 1\n{largest} 1 {largest} 1\n1\n0 0 0\n$EndNodes\n"
+    );
+    assert!(gmsh::parse(&text).is_err());
+}
+
 proptest::proptest! {
     /// Words of the formats in any order, with numbers that are too large, negative or none.
     #[test]

@@ -1,0 +1,122 @@
+//! Random planar straight-line graphs through every mesher: a mesh with its certificate, or a typed error.
+
+use biting::domain::{Domain, Pslg, repair};
+use biting::geometry::DVec2;
+use biting::meshers::{Budget, MESHERS, Parameters, Request, Trace};
+use biting::quality::{Bounds, judge};
+use biting::spacing::{self, Options, Prepared};
+
+/// Pairs (t, c_b): the quality of the theorem, the middle, and the coarsest.
+const PAIRS: [(f64, f64); 3] = [(0.25, 0.25), (0.3, 0.6), (0.25, 1.0)];
+const SPECS: [&str; 3] = ["lfs", "uniform:0.4", "expr:0.05 + 0.2*(x*x + y*y)"];
+/// Inputs that would take more are passed over: many small ones find more than few large ones.
+const MOST_TRIANGLES: f64 = 4000.0;
+
+/// The numbers that the input still holds.
+struct Bytes<'a>(std::slice::Iter<'a, u8>);
+
+impl Bytes<'_> {
+    fn next(&mut self) -> Option<usize> {
+        self.0.next().copied().map(usize::from)
+    }
+
+    fn pick<'a, T>(&mut self, among: &'a [T]) -> Option<&'a T> {
+        self.next().map(|byte| &among[byte % among.len()])
+    }
+
+    /// A point of the unit square, on a grid of 16 lines a side where `coarse`, else of 256.
+    fn point(&mut self, coarse: bool) -> Option<DVec2> {
+        let first = self.next()?;
+        let (x, y, most) = if coarse {
+            (first / 16, first % 16, 15.0)
+        } else {
+            (first, self.next()?, 255.0)
+        };
+        Some(DVec2::new(x as f64, y as f64) / most)
+    }
+}
+
+/// Mesher, pair, spacing and grid, then rings, chains, lone vertices and holes till the bytes end.
+pub fn pslg(data: &[u8]) {
+    let mut bytes = Bytes(data.iter());
+    let head = (|| {
+        let entry = bytes.pick(MESHERS)?;
+        Some((
+            entry,
+            *bytes.pick(&PAIRS)?,
+            *bytes.pick(&SPECS)?,
+            bytes.next()? % 2 == 0,
+        ))
+    })();
+    let Some((entry, (t, c_b), spec, coarse)) = head else {
+        return;
+    };
+    let pslg = graph(&mut bytes, coarse);
+    let Ok(domain) = Domain::new(pslg.clone()).or_else(|_| Domain::new(repair(pslg).0)) else {
+        return;
+    };
+    let Ok(prepared) = spacing::build(spec, &domain, &Options::new(t, c_b)) else {
+        return;
+    };
+    let Ok(integral) = spacing::integrate(&*prepared.function, &domain, 0.05) else {
+        return;
+    };
+    if spacing::estimate_triangles(integral.value, c_b) > MOST_TRIANGLES {
+        return;
+    }
+    let request = Request {
+        c_b,
+        seed: 1,
+        threads: 1,
+        budget: Budget {
+            max_vertices: Some(10 * MOST_TRIANGLES as usize),
+            ..Budget::default()
+        },
+    };
+    let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+    match mesher.mesh(&domain, &*prepared.function, &request, &mut Trace::default()) {
+        Ok(mesh) => hold(&domain, &mesh, &prepared, c_b, entry),
+        Err(error) => assert!(!error.to_string().is_empty()),
+    }
+}
+
+fn hold(domain: &Domain, mesh: &biting::mesh::Mesh, prepared: &Prepared, c_b: f64, entry: &biting::meshers::Entry) {
+    let bounds = Bounds {
+        spacing: &*prepared.function,
+        c_b,
+        lfs_cap: prepared.lfs_cap,
+        integral: None,
+        integral_error: 0.0,
+        guaranteed: &entry.guaranteed(&Parameters::new()),
+    };
+    let (_, certificate) = judge(domain, mesh, Some(&bounds));
+    let broken: Vec<_> = certificate
+        .checks
+        .iter()
+        .filter(|check| check.applies && !check.holds)
+        .collect();
+    assert!(broken.is_empty(), "{}: {broken:#?}", entry.name);
+}
+
+fn graph(bytes: &mut Bytes, coarse: bool) -> Pslg {
+    let mut pslg = Pslg::new("fuzz");
+    // The first part is a ring, else hardly any graph would hold a face.
+    let mut kind = Some(0);
+    while let Some(known) = kind {
+        let count = match known % 4 {
+            2 | 3 => 1,
+            _ => 3 + bytes.next().unwrap_or(0) % 14,
+        };
+        let points: Vec<DVec2> = (0..count).map_while(|_| bytes.point(coarse)).collect();
+        match known % 4 {
+            0 => pslg.add_ring(points, 1),
+            1 => pslg.add_chain(points, 2),
+            2 => points.into_iter().for_each(|p| {
+                pslg.add_vertex(p);
+            }),
+            _ => points.into_iter().for_each(|p| pslg.add_hole(p)),
+        }
+        kind = bytes.next();
+    }
+    pslg
+}
