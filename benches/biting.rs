@@ -43,7 +43,10 @@ fn a_million_points(criterion: &mut Criterion) {
         threads: 1,
         budget: Budget::default(),
     };
-    let fifo = Biting { order: Order::Fifo };
+    let fifo = Biting {
+        order: Order::Fifo,
+        ..Biting::default()
+    };
 
     ALLOCATED.reset_peak_usage();
     let before = ALLOCATED.current_usage();
@@ -71,7 +74,10 @@ fn a_million_points(criterion: &mut Criterion) {
         });
     });
     for order in Order::ALL {
-        let mesher = Biting { order };
+        let mesher = Biting {
+            order,
+            ..Biting::default()
+        };
         group.bench_function(format!("bite-{order:?}").to_lowercase(), |bencher| {
             bencher.iter(|| {
                 mesher

@@ -222,9 +222,12 @@ mod tests {
                 budget: Budget::default(),
             };
             for order in [Order::Largest, Order::Fifo] {
-                let mesh = Biting { order }
-                    .mesh(&domain, spacing, &request, &mut Trace::default())
-                    .expect("a mesh");
+                let mesh = Biting {
+                    order,
+                    ..Biting::default()
+                }
+                .mesh(&domain, spacing, &request, &mut Trace::default())
+                .expect("a mesh");
                 let found = beta(&domain, &mesh, spacing, c_b);
                 let dense = sampled(&domain, &mesh, spacing, c_b);
                 let t = c_b * spacing.lipschitz();

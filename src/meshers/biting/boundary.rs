@@ -7,12 +7,31 @@ use crate::mesh::Piece;
 use crate::meshers::MeshError;
 use std::collections::VecDeque;
 
-/// Bites all input vertices.
+/// Bites all input vertices that are not cut off.
 pub(super) fn vertex_protection(front: &mut Front) -> Result<(), MeshError> {
-    front.domain.vertices().iter().try_for_each(|&centre| {
-        let radius = front.radius_at(centre)?;
-        front.bite_boundary(Disc { centre, radius }).map(|_| ())
-    })
+    let vertices = front.domain.vertices().iter().enumerate();
+    vertices
+        .filter(|(v, _)| !front.cuts.is_cut(*v))
+        .try_for_each(|(_, &centre)| {
+            let radius = front.radius_at(centre)?;
+            front.bite_boundary(Disc { centre, radius }).map(|_| ())
+        })
+}
+
+/// Bites where corners are cut off, and returns for each segment those centres on it with their distances from its first
+/// end.
+fn corner_protection(front: &mut Front) -> Result<Vec<Vec<(f64, u32)>>, MeshError> {
+    let (domain, cuts) = (front.domain, front.cuts);
+    let mut placed = vec![Vec::new(); domain.segments().len()];
+    for (s, (segment, placed)) in domain.segments().iter().zip(&mut placed).enumerate() {
+        for v in [segment.a, segment.b].into_iter().filter(|&v| cuts.is_cut(v)) {
+            let centre = cuts.point(domain, s, v);
+            let radius = front.radius_at(centre)?;
+            let along = domain.vertices()[segment.a].distance(centre);
+            placed.push((along, front.bite_boundary(Disc { centre, radius })?));
+        }
+    }
+    Ok(placed)
 }
 
 /// Bites along the input segments until every point of them is covered, and returns the pieces the centres cut them into.
@@ -22,7 +41,7 @@ pub(super) fn vertex_protection(front: &mut Front) -> Result<(), MeshError> {
 /// segments too.
 pub(super) fn edge_protection(front: &mut Front) -> Result<Vec<Piece>, MeshError> {
     let segments = 0..front.domain.segments().len();
-    let mut cuts = vec![Vec::new(); segments.len()];
+    let mut cuts = corner_protection(front)?;
     let mut gaps: VecDeque<Gap> = segments.map(|segment| Gap::whole(front, segment)).collect();
     while let Some(gap) = gaps.pop_front() {
         let Some((gap, circle)) = gap.trimmed(front)? else {
@@ -54,14 +73,15 @@ impl Gap {
     fn whole(front: &Front, segment: usize) -> Self {
         let [start, end] = front.domain.ends(segment);
         let length = start.distance(end);
+        let ends = front.domain.segments()[segment];
         Self {
             segment,
             start,
             direction: (end - start) / length,
             length,
             reversed: false,
-            low: 0.0,
-            high: length,
+            low: front.cuts.distance(ends.a),
+            high: length - front.cuts.distance(ends.b),
         }
     }
 

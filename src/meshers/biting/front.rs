@@ -11,6 +11,7 @@
 //! # Cost
 //! O(1) a bite, however graded the spacing is; nothing is scanned globally or rebuilt.
 
+use super::corners::Cuts;
 use super::order::{Order, Queue, Ticket};
 use crate::domain::Domain;
 use crate::geometry::near::{Disc, DiscGrid, Near, circle_intersections};
@@ -63,6 +64,8 @@ const NONE: u32 = u32::MAX;
 /// All biting circles so far and the front they leave.
 pub(super) struct Front<'a> {
     pub domain: &'a Domain,
+    /// The corners that are left out.
+    pub cuts: &'a Cuts,
     radii: Sizing<'a>,
     /// The biting circles, in the order of bites.
     pub bitten: DiscGrid,
@@ -82,6 +85,7 @@ impl<'a> Front<'a> {
     /// The front before the first bite: the boundary of the domain.
     pub fn new(
         domain: &'a Domain,
+        cuts: &'a Cuts,
         spacing: &'a dyn Spacing,
         order: Order,
         request: &Request,
@@ -95,6 +99,7 @@ impl<'a> Front<'a> {
         }
         Ok(Self {
             domain,
+            cuts,
             radii,
             bitten: DiscGrid::new(t),
             boundary_count: u32::MAX,
@@ -113,9 +118,18 @@ impl<'a> Front<'a> {
         self.radii.at(x)
     }
 
-    /// Bites at a point of the input boundary. The arcs follow in [`Front::open`], once the boundary is covered.
+    /// Bites at a point of the input boundary and returns the number of the mesh vertex. The arcs follow in
+    /// [`Front::open`], once the boundary is covered.
     pub fn bite_boundary(&mut self, disc: Disc) -> Result<u32, MeshError> {
-        self.insert(disc)
+        // Vertices cut off are mesh vertices too, and get no circle.
+        Ok(self.insert(disc)? + self.cuts.count as u32)
+    }
+
+    /// The mesh vertices: the input's, then all other centres in the order they were bitten.
+    pub fn centres(&self) -> Vec<DVec2> {
+        let input = self.domain.vertices();
+        let others = self.bitten.discs().skip(input.len() - self.cuts.count);
+        input.iter().copied().chain(others.map(|disc| disc.centre)).collect()
     }
 
     /// The bitten discs whose interior meets `disc`.
@@ -226,7 +240,7 @@ impl<'a> Front<'a> {
                     continue;
                 }
                 let point = disc.centre + relative;
-                if near_boundary && !self.domain.contains(point) {
+                if near_boundary && (!self.domain.contains(point) || self.cuts.hold(point)) {
                     continue;
                 }
                 let vertex = FrontVertex {

@@ -45,12 +45,14 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 mod boundary;
+mod corners;
 mod front;
 mod interior;
 mod order;
 #[cfg(test)]
 mod tests;
 
+pub use corners::Corners;
 pub use order::Order;
 
 use super::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
@@ -59,6 +61,7 @@ use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::mesh::{Mesh, Piece};
 use crate::spacing::Spacing;
+use corners::Cuts;
 use serde::{Deserialize, Serialize};
 
 /// The biting method and its parameters.
@@ -67,29 +70,39 @@ use serde::{Deserialize, Serialize};
 pub struct Biting {
     /// The order of bites. The paper leaves it open; the default is what `sweep` found best.
     pub order: Order,
+    /// What is done about input angles under 90°, which the paper excludes.
+    pub corners: Corners,
 }
 
 pub(super) const ENTRY: Entry = Entry {
     name: "biting",
     summary: "advancing front that packs circles (Li, Teng, Üngör)",
-    parameters: &[Parameter {
-        name: "order",
-        values: "fifo, lifo, sharpest, flattest, equilateral, smallest, largest, random",
-        default: "largest",
-        help: "which front vertex is bitten next (open in §5.1; the default is what the sweep found best)",
-    }],
+    parameters: &[
+        Parameter {
+            name: "order",
+            values: "fifo, lifo, sharpest, flattest, equilateral, smallest, largest, random",
+            default: "largest",
+            help: "which front vertex is bitten next (open in §5.1; the default is what the sweep found best)",
+        },
+        Parameter {
+            name: "corners",
+            values: "bite, cut",
+            default: "bite",
+            help: "whether input angles under 90° are bitten like any other, or cut off first and given back (§5.1)",
+        },
+    ],
     guarantees: &[
         Guarantee::always("constrained-delaunay"),
-        Guarantee::always("packing-disjoint"),
-        Guarantee::always("coverage"),
+        Guarantee::with("packing-disjoint", "corners", "bite"),
+        Guarantee::with("coverage", "corners", "bite"),
         Guarantee::always("boundary-height"),
         Guarantee::always("min-angle"),
-        Guarantee::always("nn-vertex-lower"),
-        Guarantee::always("nn-vertex-upper"),
-        Guarantee::always("nn-point-lower"),
-        Guarantee::always("nn-point-upper"),
-        Guarantee::always("vertices-lower"),
-        Guarantee::always("vertices-upper"),
+        Guarantee::with("nn-vertex-lower", "corners", "bite"),
+        Guarantee::with("nn-vertex-upper", "corners", "bite"),
+        Guarantee::with("nn-point-lower", "corners", "bite"),
+        Guarantee::with("nn-point-upper", "corners", "bite"),
+        Guarantee::with("vertices-lower", "corners", "bite"),
+        Guarantee::with("vertices-upper", "corners", "bite"),
     ],
     make: from_parameters::<Biting>,
 };
@@ -112,7 +125,17 @@ impl Biting {
         request: &Request,
         trace: &mut Trace,
     ) -> Result<Bitten, MeshError> {
-        let mut front = front::Front::new(domain, spacing, self.order, request)?;
+        let (cuts, graded) = match self.corners {
+            Corners::Bite => (Cuts::none(domain), None),
+            Corners::Cut => {
+                let (cuts, graded) = trace.step("corner_cutting", || Cuts::new(domain, spacing, request));
+                trace.count("corners_cut", cuts.count as f64);
+                trace.count("corners_left", cuts.left as f64);
+                (cuts, Some(graded))
+            }
+        };
+        let spacing = graded.as_ref().map_or(spacing, |graded| graded);
+        let mut front = front::Front::new(domain, &cuts, spacing, self.order, request)?;
         trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
         let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;
         let centres = trace.step("interior_biting", || interior::interior_biting(front))?;

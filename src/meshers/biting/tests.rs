@@ -19,6 +19,13 @@ fn request(c_b: f64) -> Request {
     }
 }
 
+fn with(order: Order) -> Biting {
+    Biting {
+        order,
+        ..Biting::default()
+    }
+}
+
 fn square() -> Domain {
     gallery::domain("unit-square")
         .expect("a gallery name")
@@ -44,7 +51,7 @@ fn on_lower_side(bitten: &Bitten) -> Vec<f64> {
 fn bite_square(size: f64, order: Order) -> Bitten {
     let domain = square();
     let spacing = uncapped(&domain, &format!("uniform:{size}"), 1.0);
-    Biting { order }
+    with(order)
         .bite(&domain, &*spacing, &request(1.0), &mut Trace::default())
         .expect("a bitten square")
 }
@@ -115,7 +122,7 @@ fn the_seed_matters_to_random_only() {
     for order in Order::ALL {
         let bite = |seed| {
             let request = Request { seed, ..request(1.0) };
-            Biting { order }
+            with(order)
                 .bite(&domain, &*spacing, &request, &mut Trace::default())
                 .expect("bitten")
         };
@@ -148,11 +155,103 @@ proptest! {
     ) {
         let domain = gallery::domain(name).expect("a gallery name").expect("a valid domain");
         let spacing = uncapped(&domain, &format!("expr: {low} + {slope}*sqrt((x-0.3)^2 + (y-0.4)^2 + 0.001)"), 0.9);
-        let mesh = Biting { order }.mesh(&domain, &*spacing, &request(1.0), &mut Trace::default()).expect("a mesh");
+        let mesh = with(order).mesh(&domain, &*spacing, &request(1.0), &mut Trace::default()).expect("a mesh");
         let bounds = Bounds {
             spacing: &*spacing, c_b: 1.0, lfs_cap: false, integral: None, integral_error: 0.0, guaranteed: &["coverage"],
         };
         let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
         prop_assert!(certificate.holds, "{:?}", certificate.checks.iter().filter(|c| !c.holds).collect::<Vec<_>>());
+    }
+}
+
+/// The mesh with corners cut off, judged, and what was counted.
+fn cut(domain: &Domain, c_b: f64) -> (Mesh, crate::quality::Certificate, Trace) {
+    let spacing = build("lfs", domain, &Options::new(0.25, c_b)).expect("lfs").function;
+    let mesher = Biting {
+        corners: Corners::Cut,
+        ..Biting::default()
+    };
+    let mut trace = Trace::default();
+    let mesh = mesher
+        .mesh(domain, &*spacing, &request(c_b), &mut trace)
+        .expect("a mesh");
+    let bounds = Bounds {
+        spacing: &*spacing,
+        c_b,
+        lfs_cap: true,
+        integral: None,
+        integral_error: 0.0,
+        guaranteed: &["constrained-delaunay"],
+    };
+    let (_, certificate) = judge(domain, &mesh, Some(&bounds));
+    (mesh, certificate, trace)
+}
+
+/// The smallest angle of the mesh in degrees, and how many triangles there are at each input vertex.
+fn angles_and_degrees(mesh: &Mesh) -> (f64, Vec<usize>) {
+    let mut degrees = vec![0; mesh.input_vertices];
+    let mut smallest = f64::INFINITY;
+    for (t, triangle) in mesh.triangles.iter().enumerate() {
+        let angles = crate::quality::angles_deg(mesh.corners(t));
+        smallest = angles.into_iter().fold(smallest, f64::min);
+        let inputs = triangle.iter().filter(|k| (**k as usize) < mesh.input_vertices);
+        inputs.for_each(|&k| degrees[k as usize] += 1);
+    }
+    (smallest, degrees)
+}
+
+#[test]
+fn a_corner_cut_off_is_one_triangle_and_its_cut_is_not_split() {
+    let domain = gallery::domain("star")
+        .expect("a gallery name")
+        .expect("a valid domain");
+    for c_b in [0.25, 0.75] {
+        let (mesh, certificate, trace) = cut(&domain, c_b);
+        assert!(certificate.holds);
+        assert!(trace.counts.contains(&("corners_cut", 5.0)) && trace.counts.contains(&("corners_left", 0.0)));
+        let (smallest, degrees) = angles_and_degrees(&mesh);
+        assert!(domain.acute_vertices().iter().all(|&v| degrees[v] == 1), "{degrees:?}");
+        assert!(smallest > 25.0, "{smallest}");
+    }
+}
+
+#[test]
+fn without_corners_cutting_changes_nothing() {
+    for name in ["unit-square", "l-shape", "plate-hole", "interface"] {
+        let domain = gallery::domain(name).expect("a gallery name").expect("a valid domain");
+        let spacing = build("lfs", &domain, &Options::new(0.25, 0.5)).expect("lfs").function;
+        let mesh = |corners| {
+            let mesher = Biting {
+                corners,
+                ..Biting::default()
+            };
+            mesher
+                .mesh(&domain, &*spacing, &request(0.5), &mut Trace::default())
+                .expect("a mesh")
+        };
+        assert_eq!(mesh(Corners::Bite), mesh(Corners::Cut), "{name}");
+    }
+}
+
+#[test]
+fn corners_of_random_polygons_are_cut_off_and_given_back() {
+    for seed in 0..12 {
+        let name = format!("random-simple:n=20,seed={seed}");
+        let domain = gallery::domain(&name).expect("a gallery name").expect("a valid domain");
+        let (mesh, certificate, trace) = cut(&domain, 0.25);
+        let broken: Vec<_> = certificate.checks.iter().filter(|c| c.applies && !c.holds).collect();
+        assert!(broken.is_empty(), "{name}: {broken:?}");
+        let (_, degrees) = angles_and_degrees(&mesh);
+        let single = domain.acute_vertices().iter().filter(|v| degrees[**v] == 1).count() as f64;
+        let left = trace
+            .counts
+            .iter()
+            .find(|(count, _)| *count == "corners_left")
+            .expect("a count")
+            .1;
+        assert!(
+            single + left >= domain.acute_vertices().len() as f64,
+            "{name}: {degrees:?}"
+        );
     }
 }
