@@ -88,7 +88,7 @@ pub(super) const ENTRY: Entry = Entry {
             name: "corners",
             values: "bite, cut",
             default: "bite",
-            help: "whether input angles under 90° are bitten like any other, or cut off first and given back (§5.1)",
+            help: "whether input angles under 90° are bitten like any other, or cut off first and given back (§5.1; pays for small c_b so far)",
         },
     ],
     guarantees: &[
