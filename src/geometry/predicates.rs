@@ -59,7 +59,9 @@ pub fn segments_meet(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Meeting {
             Meeting::Overlap
         };
     }
-    if abc * abd > 0.0 || cda * cdb > 0.0 {
+    // Signs, not products: those of small coordinates vanish.
+    let alike = |s: f64, t: f64| (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0);
+    if alike(abc, abd) || alike(cda, cdb) {
         return Meeting::Apart;
     }
     let opposite = |s: f64, t: f64| (s > 0.0 && t < 0.0) || (s < 0.0 && t > 0.0);
@@ -87,6 +89,15 @@ mod tests {
         let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
         assert_eq!(in_circle(square[0], square[1], square[2], square[3]), 0.0);
         assert!(in_circle(square[0], square[1], square[2], DVec2::new(0.0, 1.0f64.next_down())) > 0.0);
+    }
+
+    #[test]
+    fn far_segments_of_tiny_domains_are_apart() {
+        let p = |x: f64, y: f64| 1e-95 * DVec2::new(x, y);
+        assert_eq!(
+            segments_meet(p(0.0, 0.0), p(2.0, 0.3), p(0.1, 1.0), p(2.0, 1.7)),
+            Meeting::Apart
+        );
     }
 
     #[test]

@@ -115,6 +115,9 @@ fn integrate_over(
     loop {
         let value = sum(parts.iter().map(|part| part.quarters.iter().sum()));
         let error = sum(parts.iter().map(|part| part.error));
+        if !value.is_finite() {
+            return Err(overflow(&parts));
+        }
         if error <= tolerance * value {
             return Ok(Integral {
                 value,
@@ -139,6 +142,16 @@ fn integrate_over(
             parts.extend(others);
         }
     }
+}
+
+/// Tells of a part over which 1 / f² is beyond all numbers.
+fn overflow(parts: &[Part]) -> SpacingError {
+    let is_over = |part: &&Part| !part.quarters.iter().sum::<f64>().is_finite();
+    let at = parts
+        .iter()
+        .find(is_over)
+        .map_or(DVec2::NAN, |part| centroid(&part.corners));
+    SpacingError::TooSmall { x: at.x, y: at.y }
 }
 
 /// The parts with the largest errors that hold `wanted` together; of equals the first.
@@ -383,6 +396,15 @@ mod tests {
             integrate(&f, &domain, 1e-3),
             Err(SpacingError::NotPositive { .. })
         ));
+    }
+
+    #[test]
+    fn a_spacing_whose_square_vanishes_is_an_error() {
+        let told = integrate(&Uniform(1e-300), &gallery("unit-square"), 1e-3);
+        assert!(
+            matches!(told, Err(SpacingError::TooSmall { x, .. }) if x.is_finite()),
+            "{told:?}"
+        );
     }
 
     #[test]
