@@ -3,34 +3,20 @@
 //! A million points on the unit square, f = s (1 + ½ sin 20x sin 20y). Before the timed runs the heap growth of the bite
 //! loop is printed in bytes a point.
 
+mod waves;
+
 use biting::domain::gallery;
 use biting::experiment::summary::{fit_line, median};
-use biting::geometry::DVec2;
 use biting::meshers::biting::{Biting, Order};
 use biting::meshers::{Budget, Mesher, Request, Trace};
-use biting::spacing::Spacing;
 use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
 use peak_alloc::PeakAlloc;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 use std::time::{Duration, Instant};
+use waves::Waves;
 
 #[global_allocator]
 static ALLOCATED: PeakAlloc = PeakAlloc;
-
-/// f = scale (1 + ½ sin 20x sin 20y); |∇f| ≤ 10 scale.
-struct Waves {
-    scale: f64,
-}
-
-impl Spacing for Waves {
-    fn at(&self, x: DVec2) -> f64 {
-        self.scale * (1.0 + 0.5 * (20.0 * x.x).sin() * (20.0 * x.y).sin())
-    }
-
-    fn lipschitz(&self) -> f64 {
-        10.0 * self.scale
-    }
-}
 
 fn a_million_points(criterion: &mut Criterion) {
     let domain = gallery::domain("unit-square")

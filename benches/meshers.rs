@@ -4,31 +4,18 @@
 //! f = s (1 + ½ sin 20x sin 20y). Throughput is in the triangles of the mesher at hand; before the timed runs the ratios to
 //! the first of the list are printed, for the whole mesh and a triangle, as medians of interleaved runs.
 
+mod waves;
+
 use biting::domain::{Domain, gallery};
 use biting::experiment::summary::median;
-use biting::geometry::DVec2;
 use biting::meshers::{Budget, Entry, MESHERS, Mesher, Parameters, Request, Trace};
 use biting::spacing::{Spacing, Uniform};
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use std::time::{Duration, Instant};
+use waves::Waves;
 
 /// Interleaved runs whose median the printed ratios take.
 const RUNS: usize = 5;
-
-/// f = scale (1 + ½ sin 20x sin 20y); |∇f| ≤ 10 scale.
-struct Waves {
-    scale: f64,
-}
-
-impl Spacing for Waves {
-    fn at(&self, x: DVec2) -> f64 {
-        self.scale * (1.0 + 0.5 * (20.0 * x.x).sin() * (20.0 * x.y).sin())
-    }
-
-    fn lipschitz(&self) -> f64 {
-        10.0 * self.scale
-    }
-}
 
 const REQUEST: Request = Request {
     c_b: 1.0,

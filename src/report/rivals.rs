@@ -107,28 +107,30 @@ fn misses(contest: &Contest) -> String {
     }
 }
 
+/// The columns of [`method_table`].
+const METHOD_HEAD: [&str; 17] = [
+    "mesher",
+    "measured",
+    "skipped",
+    "declined",
+    "failed",
+    "triangles",
+    "size efficiency",
+    "smallest angle",
+    "least of all",
+    "mean",
+    "5th percentile",
+    "under 20°",
+    "under 30°",
+    "β",
+    "edge/s 5, 50, 95 %",
+    "µs per triangle",
+    "growth",
+];
+
 /// A line for each method.
 fn method_table(contest: &Contest, time: &Contest) -> String {
     let common = contest.common(&contest.all());
-    let head = [
-        "mesher",
-        "measured",
-        "skipped",
-        "declined",
-        "failed",
-        "triangles",
-        "size efficiency",
-        "smallest angle",
-        "least of all",
-        "mean",
-        "5th percentile",
-        "under 20°",
-        "under 30°",
-        "β",
-        "edge/s 5, 50, 95 %",
-        "µs per triangle",
-        "growth",
-    ];
     let line = |k: usize| {
         let of = |value: fn(&Report) -> Option<f64>| contest.median(k, &common, value);
         let asked = contest.rows(k).count();
@@ -188,7 +190,7 @@ fn method_table(contest: &Contest, time: &Contest) -> String {
          slope of log seconds against log triangles, from cells timed alone.{caution}\n\n",
         common.len(),
         contest.tasks.len()
-    ) + &table(&head, &lines)
+    ) + &table(&METHOD_HEAD, &lines)
 }
 
 /// Smallest and mean angle and size efficiency for each t and c_b, where there are several.

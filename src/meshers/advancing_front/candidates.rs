@@ -53,9 +53,9 @@ impl Near {
     }
 }
 
-/// Whether a point is on the left of a line, rounded: for ranking only.
+/// Whether a point is on the left of a line.
 fn left_of(p: DVec2, q: DVec2, point: DVec2) -> bool {
-    (q - p).perp_dot(point - p) > 0.0
+    orient2d(p, q, point) > 0.0
 }
 
 #[derive(Clone, Copy, Debug)]

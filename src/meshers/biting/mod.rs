@@ -35,8 +35,8 @@
 //!   are not are counted in [`Mesh::forced_pieces`].
 //!   They need no acute angle: a middle piece on an inner segment can be 1.5 radii long, and vertices √7/4 radii above and
 //!   below its middle lie in its diametral circle.
-//! * Input angles under 90°, which the paper excludes, are bitten like any other: a point of one segment that a circle of
-//!   another covers already gets no circle of its own.
+//! * Input angles under 90°, which the paper excludes, are bitten like any other unless [`Corners::Cut`] is asked for: a
+//!   point of one segment that a circle of another covers already gets no circle of its own.
 //!
 //! # Reference
 //! X.-Y. Li, S.-H. Teng, A. Üngör, "Biting: Advancing Front Meets Sphere Packing".
