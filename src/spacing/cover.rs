@@ -77,7 +77,7 @@ fn clipped_middle([a, b]: [DVec2; 2], cell: Rect) -> DVec2 {
 /// Proves f > 0 on Ω by lower bounds on ever smaller cells.
 ///
 /// # Errors
-/// [`SpacingError::NotPositive`] at a point where f is not, or where the proof gets stuck.
+/// [`SpacingError::NotPositive`] at a point where f is not, [`SpacingError::Unproved`] where the proof gets stuck.
 pub fn check_positive(function: &dyn Spacing, domain: &Domain) -> Result<(), SpacingError> {
     if function.lower_bound(domain.bounds()) > 0.0 {
         return Ok(());
@@ -91,8 +91,11 @@ pub fn check_positive(function: &dyn Spacing, domain: &Domain) -> Result<(), Spa
         }
         let x = cell.point(domain);
         let value = function.at(x);
-        if !(value > 0.0 && value.is_finite()) || depth == DEPTH || looked_at > BUDGET {
+        if !(value > 0.0 && value.is_finite()) {
             return Err(SpacingError::NotPositive { value, x: x.x, y: x.y });
+        }
+        if depth == DEPTH || looked_at > BUDGET {
+            return Err(SpacingError::Unproved { value, x: x.x, y: x.y });
         }
         pending.extend(cell.split(domain).map(|part| (part, depth + 1)));
     }

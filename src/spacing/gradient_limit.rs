@@ -44,8 +44,8 @@ const MAX_CELLS: usize = 4_000_000;
 /// otherwise it is a [`Limited`].
 ///
 /// # Errors
-/// [`SpacingError::NotPositive`] where `function` is not positive on Ω, [`SpacingError::TooManyCells`] where the
-/// envelope needs too many.
+/// [`SpacingError::NotPositive`] where `function` is not positive on Ω, [`SpacingError::Unresolved`] where it is too small
+/// for any cell, [`SpacingError::TooManyCells`] where the envelope needs too many.
 pub fn limit(
     function: Arc<dyn Spacing>,
     domain: &Domain,
@@ -155,12 +155,12 @@ impl Refinement<'_> {
             starts.push(start);
             let looks: Vec<(Seed, f64)> = level.par_iter().map(|cell| self.look(cell, seeds)).collect();
             for (index, (seed, lowest)) in looks.iter().enumerate() {
-                if !(seed.value > 0.0 && seed.value.is_finite()) || starts.len() > DEPTH {
-                    return Err(SpacingError::NotPositive {
-                        value: seed.value,
-                        x: seed.at.x,
-                        y: seed.at.y,
-                    });
+                let (value, [x, y]) = (seed.value, seed.at.to_array());
+                if !(value > 0.0 && value.is_finite()) {
+                    return Err(SpacingError::NotPositive { value, x, y });
+                }
+                if starts.len() > DEPTH {
+                    return Err(SpacingError::Unresolved { value, x, y });
                 }
                 self.samples.set(start + index, seed.at, seed.value);
                 self.lowest.push(*lowest);

@@ -16,6 +16,7 @@
 use super::features::{Feature, Features};
 use super::shortlist::Shortlists;
 use super::{Spacing, SpacingError};
+use crate::geometry::tolerance::RESOLUTION;
 use crate::geometry::{DVec2, Rect};
 
 /// lfs of a planar straight-line graph.
@@ -30,7 +31,8 @@ impl Lfs {
     /// Indexes the features of a PSLG: all `vertices`, and `segments` between two of them.
     ///
     /// # Errors
-    /// [`SpacingError::NoFeatures`] where no two features are apart, [`SpacingError::NotPositive`] where two coincide.
+    /// [`SpacingError::NoFeatures`] where no two features are apart, [`SpacingError::NotPositive`] where two coincide,
+    /// [`SpacingError::Unresolved`] where two are so near that no mesher could put an edge between them.
     pub fn new(vertices: &[DVec2], segments: &[[usize; 2]]) -> Result<Self, SpacingError> {
         let points = vertices
             .iter()
@@ -69,6 +71,14 @@ impl Lfs {
         if lowest.0 <= 0.0 {
             return Err(SpacingError::NotPositive {
                 value: 0.0,
+                x: lowest.1.x,
+                y: lowest.1.y,
+            });
+        }
+        let largest_coordinate = bounds.min.abs().max(bounds.max.abs()).max_element();
+        if lowest.0 < RESOLUTION * largest_coordinate {
+            return Err(SpacingError::Unresolved {
+                value: lowest.0,
                 x: lowest.1.x,
                 y: lowest.1.y,
             });
@@ -199,6 +209,19 @@ mod tests {
             Lfs::new(&[DVec2::X, DVec2::X], &[]),
             Err(SpacingError::NotPositive { .. })
         ));
+    }
+
+    #[test]
+    fn a_vertex_that_nearly_touches_a_side_is_told_with_the_place() {
+        let (mut vertices, segments) = square();
+        vertices.push(DVec2::new(0.4, 1e-15));
+        let told = Lfs::new(&vertices, &segments).err();
+        assert!(
+            matches!(told, Some(SpacingError::Unresolved { x: 0.4, .. })),
+            "{told:?}"
+        );
+        vertices[4].y = 1e-12;
+        assert!(Lfs::new(&vertices, &segments).is_ok());
     }
 
     proptest! {

@@ -98,7 +98,7 @@ pub enum SpacingError {
     #[error("local feature size needs two features that are not incident; give the domain a second vertex")]
     NoFeatures,
     /// f is not positive, or not finite, somewhere on the domain.
-    #[error("spacing is {value} at ({x}, {y}): it must be finite and positive on the domain")]
+    #[error("spacing is {value:?} at ({x:?}, {y:?}): it must be finite and positive on the domain")]
     NotPositive {
         /// What it is there.
         value: f64,
@@ -107,8 +107,36 @@ pub enum SpacingError {
         /// Where.
         y: f64,
     },
+    /// f is positive where it was looked at, but no lower bound proves it nearby.
+    #[error(
+        "spacing is {value:?} at ({x:?}, {y:?}), and nothing proves it positive and finite around there; write it so that it \
+         stays above a constant, such as max(1e-3, ...)"
+    )]
+    Unproved {
+        /// What it is there.
+        value: f64,
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
+    /// f is smaller than coordinates, or the cells of the index, resolve.
+    #[error(
+        "spacing falls to {value:e} near ({x:?}, {y:?}), which is too small to resolve in a domain of this size and place; \
+         join the vertices and segments that nearly touch there, or move them apart"
+    )]
+    Unresolved {
+        /// What it is there.
+        value: f64,
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+    },
     /// f is so small on so long a stretch that its integral cannot be resolved.
-    #[error("spacing is too small near ({x}, {y}) to integrate 1 / f^2; choose a larger one")]
+    #[error(
+        "spacing is too small near ({x:?}, {y:?}) to integrate 1 / f^2; choose a larger one, or move apart what nearly touches"
+    )]
     TooSmall {
         /// Where.
         x: f64,
