@@ -7,6 +7,8 @@ use std::fmt;
 pub enum FaultKind {
     /// A coordinate is NaN or infinite, or so large that areas overflow.
     NotFinite,
+    /// All vertices lie so near together that areas vanish.
+    TooSmall,
     /// A segment names a vertex that does not exist.
     NoSuchVertex,
     /// Fewer than three vertices or segments.
@@ -47,6 +49,7 @@ impl FaultKind {
     pub fn advice(self) -> &'static str {
         match self {
             Self::NotFinite => "give finite coordinates of at most 1e70 in size",
+            Self::TooSmall => "multiply all coordinates so that the larger side is at least 1e-70",
             Self::NoSuchVertex => "number the ends as the vertices are numbered",
             Self::TooFew => "a domain needs at least three vertices joined by three segments",
             Self::DuplicateVertices => "use one of them for both, or let --repair merge them",

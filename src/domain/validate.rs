@@ -16,6 +16,9 @@ const MOST_FAULTS: usize = 1000;
 /// Largest coordinate: products of four of them, as in the in-circle test, stay finite. The advice names it.
 const LARGEST: f64 = 1e70;
 
+/// Smallest larger side: what is a millionth of it still has in-circle tests that do not vanish. The advice names it.
+const SMALLEST_SIDE: f64 = 1e-70;
+
 /// Every fault of coordinates, indices and segments; what holds faces is judged by [`super::Domain::new`].
 pub fn faults(pslg: &Pslg) -> Vec<Fault> {
     let mut faults = Report {
@@ -110,7 +113,7 @@ impl Report<'_> {
                     FaultKind::NotFinite,
                     vec![v],
                     vec![],
-                    format!("{} is at ({}, {})", self.vertex(v), p.x, p.y),
+                    format!("{} is at ({:?}, {:?})", self.vertex(v), p.x, p.y),
                 );
             }
         }
@@ -124,7 +127,7 @@ impl Report<'_> {
                 FaultKind::NotFinite,
                 vec![],
                 vec![],
-                format!("a {what} point is at ({}, {})", p.x, p.y),
+                format!("a {what} point is at ({:?}, {:?})", p.x, p.y),
             );
         }
         for (s, segment) in pslg.segments.iter().enumerate() {
@@ -145,6 +148,19 @@ impl Report<'_> {
                 pslg.segments.len()
             );
             self.add(FaultKind::TooFew, vec![], vec![], message);
+        }
+        if self.faults.is_empty() {
+            self.size();
+        }
+    }
+
+    fn size(&mut self) {
+        let bounds = Rect::around(self.pslg.vertices.iter().copied());
+        let side = bounds.size().max_element();
+        if side > 0.0 && side < SMALLEST_SIDE {
+            let [x, y] = bounds.min.to_array();
+            let message = format!("all vertices lie in a box at ({x:?}, {y:?}) whose larger side is {side:e}");
+            self.add(FaultKind::TooSmall, vec![], vec![], message);
         }
     }
 

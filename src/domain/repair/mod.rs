@@ -82,7 +82,12 @@ impl fmt::Display for RepairReport {
 /// remain, for [`super::Domain::new`] to report. O((n + k) log n) for n segments that meet k times.
 pub fn repair(input: Pslg) -> (Pslg, RepairReport) {
     let mut report = RepairReport::default();
-    let hopeless = |kind| matches!(kind, FaultKind::NotFinite | FaultKind::NoSuchVertex);
+    let hopeless = |kind| {
+        matches!(
+            kind,
+            FaultKind::NotFinite | FaultKind::NoSuchVertex | FaultKind::TooSmall
+        )
+    };
     let faults = validate::faults(&input);
     if faults.iter().any(|fault| hopeless(fault.kind)) || !faults.iter().any(|fault| fault.kind.is_repairable()) {
         return (input, report);
