@@ -5,6 +5,15 @@
 /// millionth of the domain and is far below anything that shows in a mesh.
 pub const CERTIFICATE: f64 = 1e-9;
 
+/// Certificate: the distance of two centres may fall short of the sum of their packing radii by so many ulp of their
+/// coordinates (an ulp being [`f64::EPSILON`] of the larger). What rounding can take, proved: a centre that is an
+/// intersection of circles is one sum of two vectors, each axis rounded by half an ulp, which moves it by √½; one on a
+/// segment is start + (end − start) / length · position, at most 5 in all since no side exceeds twice the largest
+/// coordinate. Two values of f, which Lemma 5.4 compares, are each off by 1.5 ulp of a distance of at most 2√2 of that
+/// coordinate, and count by c_p ≤ 1/2: another 4.3. More than [`CERTIFICATE`] only for circles under a millionth of the
+/// coordinates.
+pub const CENTRE_ULPS: f64 = 10.0;
+
 /// Biting: a point counts as inside an open circle only if it is inside the one shrunk by this share of its radius.
 /// On uniform spacing every front vertex lies on up to six circles at once; erring towards "not covered" keeps such
 /// vertices, and a hundredth of [`CERTIFICATE`] can never make the certificate fail.
@@ -30,7 +39,8 @@ pub const ACUTE_MARGIN: f64 = 1e-9;
 pub const SHORTLIST: f64 = 1e-12;
 
 /// Matching a mesh to a domain: coordinates that differ by at most this many ulp of the largest coordinate are the same
-/// vertex. Files keep doubles whole; other programs may shift a domain and back.
+/// vertex. Files keep doubles whole; other programs may shift a domain and back. Boundary edges may lie beside their
+/// segments by as much, and so the area may differ by that times the length of the boundary.
 pub const SAME_VERTEX_ULPS: f64 = 4.0;
 
 /// Matching a mesh to a domain: a mesh edge lies along an input segment if it leaves it by at most this share of its

@@ -70,7 +70,7 @@ impl Boundary {
 }
 
 /// How far apart coordinates of one vertex may be.
-fn same_vertex_distance(domain: &Domain, mesh: &Mesh) -> f64 {
+pub fn same_vertex_distance(domain: &Domain, mesh: &Mesh) -> f64 {
     let largest = |points: &[DVec2]| {
         points
             .iter()

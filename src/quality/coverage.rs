@@ -7,7 +7,7 @@ use super::tally::{Tally, Worst};
 use super::{Check, parallel};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
-use crate::geometry::tolerance::CERTIFICATE;
+use crate::geometry::tolerance::{CENTRE_ULPS, CERTIFICATE};
 use std::f64::consts::{PI, TAU};
 
 /// `packing-disjoint` and `coverage`.
@@ -62,8 +62,12 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
 fn see_pair(packing: &mut Tally, disc: &Disc, other: &Disc, c_p: f64, sizes: &Sizes) {
     if disc.id < other.id {
         let [f, g] = [disc.id, other.id].map(|k| sizes.at_vertex[k as usize]);
-        let ratio = disc.centre.distance(other.centre) / (c_p * (f + g));
-        packing.see(ratio, disc.centre.midpoint(other.centre), ratio < 1.0 - CERTIFICATE);
+        let radii = c_p * (f + g);
+        let ratio = disc.centre.distance(other.centre) / radii;
+        let coordinate = disc.centre.abs().max(other.centre.abs()).max_element();
+        let rounding = CENTRE_ULPS * f64::EPSILON * coordinate / radii;
+        let is_broken = ratio < 1.0 - CERTIFICATE - rounding;
+        packing.see(ratio, disc.centre.midpoint(other.centre), is_broken);
     }
 }
 
