@@ -3,16 +3,19 @@
 use super::exit::{Failure, Outcome};
 use super::output::{self, Target, say, say_aside};
 use super::values::{bytes, parameter, positive};
+use super::watch;
+use crate::domain::Domain;
 use crate::experiment::machine;
-use crate::experiment::measure;
-use crate::experiment::prepare::Store;
+use crate::experiment::measure::{self, Run};
+use crate::experiment::prepare::{Prepared, Store};
 use crate::experiment::record::{Cell, Report};
 use crate::experiment::runner;
 use crate::files::write_whole;
-use crate::meshers::{Budget, MeshError, Request};
+use crate::meshers::{Budget, MeshError, Mesher, Request};
 use crate::spacing;
 use serde_json::Value;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// The default of `--t`: see the page of findings in `results/sweep`.
 pub const DEFAULT_T: &str = "0.25";
@@ -61,7 +64,7 @@ pub struct Arguments {
     /// Most vertices a mesh may have
     #[arg(long, value_name = "N")]
     max_vertices: Option<usize>,
-    /// Most seconds the mesher may take
+    /// Most seconds the mesher may take; before it as many for the spacing
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     max_seconds: Option<f64>,
     /// Most memory of the process, such as 4G
@@ -83,13 +86,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
         .collect::<Result<Vec<_>, _>>()?;
     let cell = arguments.cell()?;
     let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
-    let store = Store::new(arguments.limit_factor, arguments.repair);
-    let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
+    let request = arguments.request();
+    let (store, prepared) = arguments.prepare(&cell, &request.budget)?;
     output::say_notes(&store, &prepared.site.domain);
-    let run = measure::run(&prepared, &*mesher, &arguments.request()).map_err(|error| match error {
-        MeshError::Budget { .. } | MeshError::Declined(_) => Failure::Declined(error.to_string()),
-        MeshError::Spacing { .. } | MeshError::Triangulation(_) => Failure::input(error),
-    })?;
+    let (prepared, run) = mesh_within(prepared, mesher, request)?;
     let report = measure::judge(&prepared, &cell, entry, &run, &machine::provenance());
     let mut written = Vec::new();
     for target in &targets {
@@ -131,6 +131,29 @@ impl Arguments {
         })
     }
 
+    /// Domain and spacing, within a budget that each of the two may use up.
+    fn prepare(&self, cell: &Cell, budget: &Budget) -> Result<(Store, Prepared), Failure> {
+        let (store, now) = (Store::new(self.limit_factor, self.repair), Duration::ZERO);
+        let (name, asked) = (cell.domain.clone(), cell.clone());
+        let reading = || format!("reading and checking {name}; raise the budget");
+        let (store, domain) = watch::within(budget, now, reading, move || {
+            let domain = store.domain(&asked.domain);
+            (store, domain)
+        })?;
+        let (domain, asked) = (domain.map_err(Failure::input)?, cell.clone());
+        let making = || {
+            format!(
+                "making the spacing of {name}, before any meshing; {}; ask for a larger t / c_b or raise the budget",
+                shortest_segment(&domain)
+            )
+        };
+        let (store, prepared) = watch::within(budget, now, making, move || {
+            let prepared = store.prepare_for_t(&asked);
+            (store, prepared)
+        })?;
+        Ok((store, prepared.map_err(Failure::input)?))
+    }
+
     fn request(&self) -> Request {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         Request {
@@ -144,6 +167,55 @@ impl Arguments {
             },
         }
     }
+}
+
+/// A mesher that has not stopped by itself so long after its budget was used up is in a step that does not look.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// No mesh has been seen to take less memory for a triangle: without a budget, none is begun that cannot end.
+const LEAST_BYTES_PER_TRIANGLE: f64 = 100.0;
+
+/// Meshes, and tells what was to be expected where a budget ends that.
+fn mesh_within(prepared: Prepared, mesher: Box<dyn Mesher>, request: Request) -> Result<(Prepared, Run), Failure> {
+    let integral = prepared.integral.value;
+    let triangles = spacing::estimate_triangles(integral, request.c_b);
+    let expected = format!("about {triangles:.3e} triangles were to be expected (∫dA/f² = {integral:.3e})");
+    let place = shortest_segment(&prepared.site.domain);
+    let fits = LEAST_BYTES_PER_TRIANGLE * triangles
+        <= machine::available_memory_bytes().map_or(f64::INFINITY, |bytes| bytes as f64);
+    if request.budget == Budget::default() && !fits {
+        return Err(Failure::Declined(format!(
+            "declined: {expected}, more than memory holds; {place}; ask for a larger spacing or a larger c_b, move apart \
+             what nearly touches, or set a budget such as --max-vertices to try all the same"
+        )));
+    }
+    let told = || format!("meshing, in a step that does not place vertices; {place}; {expected}; raise the budget");
+    let (prepared, run) = watch::within(&request.budget, PATIENCE, told, move || {
+        let run = measure::run(&prepared, &*mesher, &request);
+        (prepared, run)
+    })?;
+    let run = run.map_err(|error| match error {
+        MeshError::Budget { .. } => Failure::Declined(format!("{error}; {expected}")),
+        MeshError::Declined(_) => Failure::Declined(error.to_string()),
+        MeshError::Spacing { .. } | MeshError::Triangulation(_) => Failure::input(error),
+    })?;
+    Ok((prepared, run))
+}
+
+/// Where a domain is likely to ask for the smallest triangles.
+fn shortest_segment(domain: &Domain) -> String {
+    let ends = (0..domain.segments().len()).map(|s| domain.ends(s));
+    ends.min_by(|u, v| u[0].distance(u[1]).total_cmp(&v[0].distance(v[1])))
+        .map_or_else(String::new, |[a, b]| {
+            format!(
+                "the shortest of {} segments goes from ({:?}, {:?}) to ({:?}, {:?})",
+                domain.segments().len(),
+                a.x,
+                a.y,
+                b.x,
+                b.y
+            )
+        })
 }
 
 /// A report in a few lines.

@@ -15,6 +15,7 @@ mod progress;
 mod report;
 mod sweep;
 mod values;
+mod watch;
 
 /// Provably good triangle meshes by biting circles off an advancing front, and the experiment about them.
 #[derive(Parser)]

@@ -78,7 +78,7 @@ fn stopped(budget: String, vertices: usize, at: DVec2, size: f64) -> MeshError {
 }
 
 /// Resident memory of the process in bytes, where the system tells (Linux).
-fn resident_bytes() -> Option<u64> {
+pub(crate) fn resident_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
     line.trim()

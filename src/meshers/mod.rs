@@ -14,6 +14,7 @@ mod sizing;
 
 pub use budget::Budget;
 use budget::Monitor;
+pub(crate) use budget::resident_bytes;
 
 /// Parameters of a mesher by name.
 pub type Parameters = serde_json::Map<String, serde_json::Value>;

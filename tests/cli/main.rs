@@ -241,8 +241,39 @@ fn a_budget_stops_with_the_reason_and_leaves_nothing() {
         &["mesh", "comb", "--max-vertices", "60", "--out", "m.vtu"],
         4,
     );
-    assert!(message.contains("max_vertices"), "{message}");
+    assert!(
+        message.contains("max_vertices") && message.contains("to be expected"),
+        "{message}"
+    );
     assert!(names(folder.path()).is_empty());
+}
+
+#[test]
+fn without_a_budget_no_mesh_is_begun_that_memory_cannot_hold() {
+    let folder = folder();
+    let (_, message) = run(folder.path(), &["mesh", "unit-square", "--spacing", "uniform:1e-12"], 4);
+    assert!(
+        message.contains("triangles were to be expected") && message.contains("(0.0, 0.0)"),
+        "{message}"
+    );
+}
+
+/// Limiting that spacing takes many seconds; no mesher has been asked by then.
+#[test]
+fn a_budget_is_noticed_while_the_spacing_is_made() {
+    let folder = folder();
+    for budget in [["--max-seconds", "0.1"], ["--max-memory", "1"]] {
+        let (_, message) = run(
+            folder.path(),
+            &[&["mesh", "aegean", "--t", "0.01", "--out", "m.vtu"], &budget[..]].concat(),
+            4,
+        );
+        assert!(
+            message.contains("stopped by max_") && message.contains("aegean") && message.contains("raise the budget"),
+            "{message}"
+        );
+        assert!(names(folder.path()).is_empty());
+    }
 }
 
 #[test]
