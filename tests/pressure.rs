@@ -1,0 +1,219 @@
+//! Domains and spacings under pressure, by every mesher: each ends in a certified mesh or in an error that names the place.
+//! Found cases have tests named after them; the heavy ones are in `.ci/pressure`.
+
+use biting::domain::{Domain, Fill, InputSegment, Pslg};
+use biting::geometry::DVec2;
+use biting::mesh::Mesh;
+use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace};
+use biting::quality::{Bounds, judge};
+use biting::spacing::{self, Options, Spacing};
+
+const T: f64 = 0.25;
+const C_B: f64 = 0.75;
+
+/// A domain of closed rings; rings after the first are holes.
+fn rings(rings: &[&[(f64, f64)]]) -> Pslg {
+    let mut pslg = Pslg {
+        name: "pressed".into(),
+        ..Pslg::default()
+    };
+    let mut flips = Vec::new();
+    for ring in rings {
+        let first = pslg.vertices.len();
+        pslg.vertices.extend(ring.iter().map(|&(x, y)| DVec2::new(x, y)));
+        let count = ring.len();
+        pslg.segments.extend((0..count).map(|k| InputSegment {
+            a: first + k,
+            b: first + (k + 1) % count,
+            marker: 1,
+        }));
+        flips.extend(std::iter::repeat_n(true, count));
+    }
+    pslg.fill = Fill::EvenOdd { flips };
+    pslg
+}
+
+/// A pentagon with a triangular hole, no side along an axis.
+fn house(scale: f64, offset: f64) -> Pslg {
+    let moved = |ring: &[(f64, f64)]| -> Vec<(f64, f64)> {
+        ring.iter()
+            .map(|&(x, y)| (scale * x + offset, scale * y + offset))
+            .collect()
+    };
+    let walls = moved(&[(0.1, 0.0), (1.3, 0.2), (1.1, 0.9), (0.6, 1.4), (0.0, 0.8)]);
+    let door = moved(&[(0.5, 0.4), (0.8, 0.5), (0.6, 0.7)]);
+    rings(&[&walls, &door])
+}
+
+fn request() -> Request {
+    Request {
+        c_b: C_B,
+        seed: 0,
+        threads: 1,
+        budget: Budget {
+            max_vertices: Some(50_000),
+            ..Budget::default()
+        },
+    }
+}
+
+fn run(entry: &Entry, domain: &Domain, spacing: &dyn Spacing) -> Result<Mesh, MeshError> {
+    let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+    mesher.mesh(domain, spacing, &request(), &mut Trace::default())
+}
+
+/// The certificate holds, by every mesher, or what went wrong before or in it.
+fn pressed(pslg: &Pslg) -> Vec<Result<(), String>> {
+    let prepared = Domain::new(pslg.clone())
+        .map_err(|error| error.to_string())
+        .and_then(|domain| {
+            let built = spacing::build("lfs", &domain, &Options::new(T, C_B)).map_err(|error| error.to_string())?;
+            Ok((domain, built))
+        });
+    let (domain, built) = match prepared {
+        Ok(both) => both,
+        Err(told) => return vec![Err(told)],
+    };
+    let by = |entry: &Entry| {
+        let mesh = match run(entry, &domain, &*built.function) {
+            Ok(mesh) => mesh,
+            Err(error @ (MeshError::Declined(_) | MeshError::Budget { .. })) => return Err(error.to_string()),
+            Err(error) => panic!("{}: {error}", entry.name),
+        };
+        let bounds = Bounds {
+            spacing: &*built.function,
+            c_b: C_B,
+            lfs_cap: built.lfs_cap,
+            integral: None,
+            integral_error: 0.0,
+            guaranteed: &entry.guaranteed(&Parameters::new()),
+        };
+        let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
+        let broken: Vec<_> = certificate
+            .checks
+            .iter()
+            .filter(|check| check.applies && !check.holds)
+            .collect();
+        assert!(broken.is_empty(), "{}: {broken:#?}", entry.name);
+        Ok(())
+    };
+    MESHERS.iter().map(by).collect()
+}
+
+fn all_certified(pslg: &Pslg, what: &str) {
+    for told in pressed(pslg) {
+        assert_eq!(told, Ok(()), "{what}");
+    }
+}
+
+fn all_told(pslg: &Pslg, words: &str) {
+    for told in pressed(pslg) {
+        let is_told = matches!(&told, Err(text) if text.contains(words) && text.contains('('));
+        assert!(is_told, "{words}: {told:?}");
+    }
+}
+
+#[test]
+fn coordinates_from_a_millionth_of_a_millionth_to_a_million_millions() {
+    for power in [-12, -9, 9, 12] {
+        all_certified(&house(10f64.powi(power), 0.0), &format!("1e{power}"));
+    }
+}
+
+/// Products of orientations vanished, so that segments far apart met.
+#[test]
+fn coordinates_too_small_for_any_test_are_told() {
+    all_told(&house(1e-100, 0.0), "larger side is");
+    all_told(&house(1e100, 0.0), "1e70");
+}
+
+/// Points on slanted segments are rounded to 1e-7: the area changed by more than its check allowed.
+#[test]
+fn unit_features_at_an_offset_of_1e9() {
+    all_certified(&house(1.0, 1e6), "1e6");
+    all_certified(&house(1.0, 1e9), "1e9");
+}
+
+/// The integral of 1 / lfs² never converged where features are noise.
+#[test]
+fn unit_features_at_an_offset_of_1e15_are_told() {
+    all_told(&house(1.0, 1e15), "too small to resolve");
+}
+
+const TOP: [(f64, f64); 3] = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+
+fn with_top(bottom: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    [bottom, &TOP].concat()
+}
+
+/// At 1e-9 packing circles are so small that their rounded centres are nearer than their radii say.
+#[test]
+fn two_vertices_nearly_repeated() {
+    for d in [1e-6, 1e-9, 1e-12] {
+        all_certified(
+            &rings(&[&with_top(&[(0.0, 0.0), (0.5, 0.0), (0.5 + d, 0.0)])]),
+            &format!("{d:e}"),
+        );
+    }
+    all_told(&rings(&[&with_top(&[(0.0, 0.0), (0.5, 0.0), (0.5, 0.0)])]), "both at");
+    all_told(
+        &rings(&[&with_top(&[(0.0, 0.0), (0.5, 0.0), (0.5 + 1e-15, 0.0)])]),
+        "too small to resolve",
+    );
+}
+
+#[test]
+fn a_vertex_nearly_on_the_line_of_its_neighbours() {
+    for d in [1e-6, 1e-9, 1e-12, -1e-6, -1e-9, -1e-12] {
+        all_certified(&rings(&[&with_top(&[(0.0, 0.0), (0.37, d)])]), &format!("{d:e}"));
+    }
+}
+
+#[test]
+fn a_hole_that_nearly_touches_a_side() {
+    let near = |d: f64| rings(&[&with_top(&[(0.0, 0.0)]), &[(0.4, d), (0.6, 0.3), (0.3, 0.4)]]);
+    for d in [1e-6, 1e-9] {
+        all_certified(&near(d), &format!("{d:e}"));
+    }
+    // Told as "must be positive" before, and not at all at 1e-15.
+    for d in [1e-12, 1e-15] {
+        all_told(&near(d), "too small to resolve");
+    }
+    all_told(&near(0.0), "lies on");
+}
+
+#[test]
+fn a_hole_of_a_millionth_and_of_a_thousand_millionth() {
+    for d in [1e-6, 1e-9] {
+        let at = |x: f64, y: f64| (0.5 + d * x, 0.5 + d * y);
+        let speck = [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
+        all_certified(&rings(&[&with_top(&[(0.0, 0.0)]), &speck]), &format!("{d:e}"));
+    }
+}
+
+/// Jumps from 0.1 to a smaller value, and denies it.
+struct Jump(f64);
+
+impl Spacing for Jump {
+    fn at(&self, x: DVec2) -> f64 {
+        if x.x < 0.5 { 0.1 } else { self.0 }
+    }
+
+    fn lipschitz(&self) -> f64 {
+        0.1
+    }
+}
+
+/// No mesher hangs or panics; the structure of what it makes is right.
+#[test]
+fn a_spacing_that_breaks_its_constant() {
+    let square = Domain::new(rings(&[&with_top(&[(0.0, 0.0)])])).expect("a valid domain");
+    for entry in MESHERS {
+        for value in [0.03, 0.01] {
+            if let Ok(mesh) = run(entry, &square, &Jump(value)) {
+                let (_, certificate) = judge(&square, &mesh, None);
+                assert!(certificate.holds, "{} with {value}", entry.name);
+            }
+        }
+    }
+}
