@@ -6,6 +6,7 @@
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
+mod battery;
 mod check;
 mod exit;
 mod list;
@@ -37,6 +38,9 @@ enum Verb {
     Report(report::Arguments),
     /// List domains, meshers with parameters, spacings and experiments
     List,
+    /// Run the cases that come in on standard input, one a line: what a sweep of batteries starts
+    #[command(name = battery::WORKER, hide = true)]
+    RunCases,
 }
 
 /// Parses the arguments, runs the verb and turns its outcome into the exit status.
@@ -47,6 +51,7 @@ pub fn main() -> ExitCode {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Report(arguments) => report::run(&arguments),
         Verb::List => list::run(),
+        Verb::RunCases => battery::work(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

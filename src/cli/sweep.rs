@@ -1,12 +1,14 @@
 //! `sweep [EXPERIMENT.toml]`: the main job.
 
+use super::battery;
 use super::exit::{Failure, Outcome};
 use super::list::EXPERIMENTS;
 use super::output::{say, say_aside};
 use super::progress::Progress;
 use super::values::bytes;
-use crate::experiment::expect::{anything_measured, findings};
-use crate::experiment::journal::{Journal, read_rows};
+use crate::experiment::battery::CHUNKS;
+use crate::experiment::expect::{Finding, anything_measured, findings};
+use crate::experiment::journal::{Journal, Record};
 use crate::experiment::machine;
 use crate::experiment::measure;
 use crate::experiment::plan::{Plan, PlannedCell};
@@ -84,6 +86,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
         return merge(&place.plan()?, &place.results);
     }
     let plan = arguments.place.plan()?;
+    let folder = arguments.place.results.join(&plan.name);
+    if !plan.batteries.is_empty() {
+        return battery::run(&plan, &folder, &arguments.of_battery());
+    }
     let cells = plan.cells().map_err(Failure::input)?;
     for planned in &cells {
         runner::mesher(&planned.cell)
@@ -98,17 +104,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
             arguments.threads(),
         );
     }
-    let folder = arguments.place.results.join(&plan.name);
     let provenance = machine::provenance();
-    let rows_file = folder.join(rows_name(arguments.shard));
-    let mut journal = Journal::open(&rows_file).map_err(Failure::input)?;
-    if journal.cut_off > 0 {
-        say_aside(format_args!(
-            "{}: cut off {} bytes of an unfinished last line",
-            rows_file.display(),
-            journal.cut_off
-        ));
-    }
+    let mut journal = open(&folder.join(file_name(record::ROWS, arguments.shard)))?;
     start_anew_if_needed(arguments.fresh, &cells, &mut journal, &provenance)?;
     arguments.run_pending(&plan, &cells, &store, &mut journal, &provenance)?;
     journal
@@ -125,7 +122,29 @@ pub fn run(arguments: &Arguments) -> Outcome {
     finish(&plan, &folder, &rows)
 }
 
+/// Opens a file of rows or chunks, and tells what a kill left in it.
+pub fn open<R: Record>(file: &Path) -> Result<Journal<R>, Failure> {
+    let journal = Journal::open(file).map_err(Failure::input)?;
+    if journal.cut_off > 0 {
+        say_aside(format_args!(
+            "{}: cut off {} bytes of an unfinished last line",
+            file.display(),
+            journal.cut_off
+        ));
+    }
+    Ok(journal)
+}
+
 impl Arguments {
+    fn of_battery(&self) -> battery::Run {
+        battery::Run {
+            fresh: self.fresh,
+            dry_run: self.dry_run,
+            shard: self.shard,
+            threads: self.threads(),
+        }
+    }
+
     fn threads(&self) -> usize {
         self.threads
             .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
@@ -240,25 +259,36 @@ fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -
     Ok(())
 }
 
-fn rows_name(shard: Option<Shard>) -> String {
+/// The file of a shard's rows or chunks, where `whole` is the file of all.
+pub fn file_name(whole: &str, shard: Option<Shard>) -> String {
+    let stem = whole.trim_end_matches(".jsonl");
     match shard {
-        Some(shard) => format!("rows.{}-of-{}.jsonl", shard.number, shard.of),
-        None => record::ROWS.into(),
+        Some(shard) => format!("{stem}.{}-of-{}.jsonl", shard.number, shard.of),
+        None => whole.into(),
     }
 }
 
-/// Joins the rows of shards. Those of `rows.jsonl` are kept where no shard has them.
 fn merge(plan: &Plan, results: &Path) -> Outcome {
     let folder = results.join(&plan.name);
-    let cells = plan.cells().map_err(Failure::input)?;
-    let shards = shard_files(&folder)?;
+    if plan.batteries.is_empty() {
+        let cells = plan.cells().map_err(Failure::input)?;
+        let keys: Vec<String> = cells.into_iter().map(|planned| planned.key).collect();
+        finish(plan, &folder, &join(&folder, record::ROWS, &keys)?)
+    } else {
+        battery::finish(plan, &folder, &join(&folder, CHUNKS, &battery::keys(plan))?)
+    }
+}
+
+/// Joins the rows, or chunks, of shards. Those of the file of all are kept where no shard has them.
+fn join<R: Record>(folder: &Path, whole: &str, keys: &[String]) -> Result<Vec<R>, Failure> {
+    let shards = shard_files(folder, whole)?;
     if shards.is_empty() {
         return Err(Failure::Input(format!(
             "{}: no rows of shards there; run `sweep --shard I/N`",
             folder.display()
         )));
     }
-    let mut journal = Journal::open(&folder.join(record::ROWS)).map_err(Failure::input)?;
+    let mut journal: Journal<R> = Journal::open(&folder.join(whole)).map_err(Failure::input)?;
     for file in &shards {
         // Opening takes the lock: a shard that is still running is not merged half.
         let shard = Journal::open(file).map_err(Failure::input)?;
@@ -268,28 +298,21 @@ fn merge(plan: &Plan, results: &Path) -> Outcome {
         say(format_args!("{}: {} rows", file.display(), shard.lines().len()));
     }
     journal
-        .settle(cells.iter().map(|planned| planned.key.as_str()))
+        .settle(keys.iter().map(String::as_str))
         .map_err(Failure::input)?;
-    let missing: Vec<&str> = cells
-        .iter()
-        .map(|planned| planned.key.as_str())
-        .filter(|key| journal.get(key).is_none())
-        .collect();
+    let missing: Vec<&String> = keys.iter().filter(|key| journal.get(key).is_none()).collect();
     if let Some(first) = missing.first() {
         let many = missing.len();
         return Err(Failure::Input(format!(
-            "{many} cells have no row yet, such as {first}; run the missing shards, or `sweep` to run what is left"
+            "{many} of them have no row yet, such as {first}; run the missing shards, or `sweep` to run what is left"
         )));
     }
-    finish(
-        plan,
-        &folder,
-        &read_rows(&folder.join(record::ROWS)).map_err(Failure::input)?,
-    )
+    Ok(journal.lines().iter().map(|line| line.row.clone()).collect())
 }
 
 /// The rows of shards in a folder, by name.
-fn shard_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+fn shard_files(folder: &Path, whole: &str) -> Result<Vec<PathBuf>, Failure> {
+    let stem = format!("{}.", whole.trim_end_matches(".jsonl"));
     let listed = folder
         .read_dir()
         .map_err(|cause| Failure::Input(format!("{}: {cause}", folder.display())))?;
@@ -298,7 +321,7 @@ fn shard_files(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
             .file_name()
             .map(|name| name.to_string_lossy().into_owned())
             .unwrap_or_default();
-        let middle = name.strip_prefix("rows.").and_then(|rest| rest.strip_suffix(".jsonl"));
+        let middle = name.strip_prefix(&stem).and_then(|rest| rest.strip_suffix(".jsonl"));
         middle
             .and_then(|middle| middle.replace("-of-", "/").parse::<Shard>().ok())
             .is_some()
@@ -320,8 +343,12 @@ fn finish(plan: &Plan, folder: &Path, rows: &[Row]) -> Outcome {
         return Err(Failure::NothingMeasured(format!("nothing could be measured: {reason}")));
     }
     super::report::write(folder)?;
-    let findings = findings(&plan.expect, rows);
-    for finding in &findings {
+    tell(&findings(&plan.expect, rows))
+}
+
+/// Tells what was expected and what came out.
+pub fn tell(findings: &[Finding]) -> Outcome {
+    for finding in findings {
         say(format_args!(
             "{} {}: {}",
             if finding.holds { "held:  " } else { "BROKEN:" },

@@ -6,6 +6,8 @@
 
 use super::record::Row;
 use crate::files::write_whole;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
@@ -47,33 +49,45 @@ fn io_error(path: &Path) -> impl FnOnce(io::Error) -> JournalError {
     |cause| JournalError::Io { path, cause }
 }
 
+/// What a journal keeps, a line each.
+pub trait Record: Clone + Serialize + DeserializeOwned {
+    /// Identifies it: a later line with an equal key replaces an earlier one.
+    fn key(&self) -> &str;
+}
+
+impl Record for Row {
+    fn key(&self) -> &str {
+        &self.key
+    }
+}
+
 /// A row with the very text it was read from or written as: rewriting must not change a digit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line {
+pub struct Line<R = Row> {
     /// The row.
-    pub row: Row,
+    pub row: R,
     /// Its JSON, without line feed.
     pub text: String,
 }
 
-impl Line {
+impl<R: Record> Line<R> {
     /// The line of `row`.
     ///
     /// # Errors
     /// If the row could not be read back, as when a number is not finite: JSON has no such numbers.
-    pub fn new(row: Row) -> Result<Self, serde_json::Error> {
+    pub fn new(row: R) -> Result<Self, serde_json::Error> {
         let text = serde_json::to_string(&row)?;
-        serde_json::from_str::<Row>(&text)?;
+        serde_json::from_str::<R>(&text)?;
         Ok(Self { row, text })
     }
 }
 
 /// An open file of rows, locked against other processes.
 #[derive(Debug)]
-pub struct Journal {
+pub struct Journal<R = Row> {
     path: PathBuf,
     file: File,
-    lines: Vec<Line>,
+    lines: Vec<Line<R>>,
     index: HashMap<String, usize>,
     /// Bytes of an unfinished last line that were cut off on opening.
     pub cut_off: usize,
@@ -93,7 +107,7 @@ impl Drop for Lock {
     }
 }
 
-impl Journal {
+impl<R: Record> Journal<R> {
     /// Opens or makes the file of rows at `path`, with its folder; cuts off what a kill left unfinished.
     ///
     /// # Errors
@@ -116,11 +130,11 @@ impl Journal {
             file.set_len(whole as u64).map_err(io_error(path))?;
             file.seek(io::SeekFrom::End(0)).map_err(io_error(path))?;
         }
-        let lines = parse(path, &text[..whole])?;
+        let lines: Vec<Line<R>> = parse(path, &text[..whole])?;
         let index = lines
             .iter()
             .enumerate()
-            .map(|(at, line)| (line.row.key.clone(), at))
+            .map(|(at, line)| (line.row.key().to_owned(), at))
             .collect();
         Ok(Self {
             path: path.to_owned(),
@@ -133,12 +147,12 @@ impl Journal {
     }
 
     /// The rows so far: the last one of each key, in the order in which the keys came.
-    pub fn lines(&self) -> &[Line] {
+    pub fn lines(&self) -> &[Line<R>] {
         &self.lines
     }
 
     /// The row of `key`, if there is one.
-    pub fn get(&self, key: &str) -> Option<&Row> {
+    pub fn get(&self, key: &str) -> Option<&R> {
         self.index.get(key).map(|&at| &self.lines[at].row)
     }
 
@@ -146,7 +160,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`JournalError::Io`].
-    pub fn append(&mut self, line: Line) -> Result<(), JournalError> {
+    pub fn append(&mut self, line: Line<R>) -> Result<(), JournalError> {
         let mut bytes = line.text.clone().into_bytes();
         bytes.push(b'\n');
         self.file
@@ -184,7 +198,7 @@ impl Journal {
     /// # Errors
     /// [`JournalError::Io`].
     pub fn settle<'a>(&mut self, keys: impl IntoIterator<Item = &'a str>) -> Result<(), JournalError> {
-        let ordered: Vec<Line> = keys
+        let ordered: Vec<Line<R>> = keys
             .into_iter()
             .filter_map(|key| self.index.get(key))
             .map(|&at| self.lines[at].clone())
@@ -202,7 +216,7 @@ impl Journal {
         self.index = ordered
             .iter()
             .enumerate()
-            .map(|(at, line)| (line.row.key.clone(), at))
+            .map(|(at, line)| (line.row.key().to_owned(), at))
             .collect();
         self.lines = ordered;
         Ok(())
@@ -213,7 +227,7 @@ impl Journal {
 ///
 /// # Errors
 /// [`JournalError`], naming file and line.
-pub fn read_rows(path: &Path) -> Result<Vec<Row>, JournalError> {
+pub fn read_rows<R: Record>(path: &Path) -> Result<Vec<R>, JournalError> {
     let text = std::fs::read(path).map_err(io_error(path))?;
     Ok(parse(path, &text[..whole_lines(&text)])?
         .into_iter()
@@ -226,14 +240,14 @@ fn whole_lines(text: &[u8]) -> usize {
     text.iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1)
 }
 
-fn parse(path: &Path, text: &[u8]) -> Result<Vec<Line>, JournalError> {
+fn parse<R: Record>(path: &Path, text: &[u8]) -> Result<Vec<Line<R>>, JournalError> {
     let mut lines = Vec::new();
     let mut index = HashMap::new();
     for (at, bytes) in text.split(|&byte| byte == b'\n').enumerate() {
         if bytes.iter().all(u8::is_ascii_whitespace) {
             continue;
         }
-        let row = serde_json::from_slice(bytes).map_err(|cause| JournalError::Line {
+        let row: R = serde_json::from_slice(bytes).map_err(|cause| JournalError::Line {
             path: path.to_owned(),
             line: at + 1,
             cause,
@@ -244,11 +258,11 @@ fn parse(path: &Path, text: &[u8]) -> Result<Vec<Line>, JournalError> {
     Ok(lines)
 }
 
-fn insert(lines: &mut Vec<Line>, index: &mut HashMap<String, usize>, line: Line) {
-    match index.get(&line.row.key) {
+fn insert<R: Record>(lines: &mut Vec<Line<R>>, index: &mut HashMap<String, usize>, line: Line<R>) {
+    match index.get(line.row.key()) {
         Some(&at) => lines[at] = line,
         None => {
-            index.insert(line.row.key.clone(), lines.len());
+            index.insert(line.row.key().to_owned(), lines.len());
             lines.push(line);
         }
     }

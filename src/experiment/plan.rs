@@ -28,13 +28,36 @@
 //! repeats = 3                    # default
 //! quick = { t = [0.25] }         # lists that replace those above under --quick; without it the group is left out
 //! ```
+//!
+//! Another kind of experiment has batteries in place of groups: many small cases, tallied ([`Battery`]).
+//!
+//! ```toml
+//! [expect]                       # what counts there
+//! panicked = 0                   # cases that ended so
+//! hung = 0
+//! invalid = 0
+//! declined_share = 0.01          # of a mesher's valid domains
+//! skipped_families = 0           # those whose files are not there
+//!
+//! [[battery]]                    # each domain by every method, with a spacing, t and c_b drawn for each mesh
+//! families = ["fan", "slits"]
+//! domain = "random-pslg:kind={family},seed={seed}"   # or folder = "out/outlines/{family}", fetch = "the command"
+//! domains = 1000                 # of each family
+//! methods = [{ mesher = "biting" }]
+//! spacings = ["lfs"]
+//! t = [0.25, "1/3"]
+//! c_b = [0.5]
+//! quick = { domains = 4 }
+//! ```
 
+mod battery;
 mod group;
 mod number;
 #[cfg(test)]
 mod tests;
 
-pub use group::Group;
+pub use battery::Battery;
+pub use group::{Group, Method};
 pub use number::{Number, fraction};
 
 use super::record::Cell;
@@ -72,6 +95,8 @@ pub struct Plan {
     pub expect: Expectations,
     /// Groups of cells, in the order of the rows.
     pub groups: Vec<Group>,
+    /// Batteries of cases; a plan has these or groups.
+    pub batteries: Vec<Battery>,
 }
 
 /// Limits of each cell.
@@ -107,6 +132,16 @@ pub struct Expectations {
     pub unmeshed_share: Option<f64>,
     /// The least number of measured cells of some domains.
     pub measured_per_domain: BTreeMap<String, usize>,
+    /// Of a battery: the most cases that may panic, or end their process.
+    pub panicked: Option<u64>,
+    /// Of a battery: the most cases that may hang.
+    pub hung: Option<u64>,
+    /// Of a battery: the most cases whose mesh may break a guaranteed check.
+    pub invalid: Option<u64>,
+    /// Of a battery: the largest share of valid domains that a method may decline.
+    pub declined_share: Option<f64>,
+    /// Of a battery: the most families that may be skipped since their files are not there.
+    pub skipped_families: Option<u64>,
 }
 
 /// One cell of a plan, before anything is known of it.
@@ -132,7 +167,10 @@ struct File {
     budget: CellBudget,
     #[serde(default)]
     expect: Expectations,
+    #[serde(default)]
     group: Vec<Group>,
+    #[serde(default)]
+    battery: Vec<Battery>,
 }
 
 impl Plan {
@@ -158,6 +196,7 @@ impl Plan {
             budget,
             expect,
             group,
+            battery,
         } = toml::from_str(&text).map_err(|cause| error(cause.to_string().trim_end().to_owned()))?;
         let plan = Self {
             name,
@@ -167,9 +206,34 @@ impl Plan {
             budget,
             expect,
             groups: group,
+            batteries: battery,
         };
-        plan.cells()?;
+        if plan.batteries.is_empty() {
+            plan.cells()?;
+        }
+        plan.check_batteries().map_err(error)?;
         Ok(plan)
+    }
+
+    fn check_batteries(&self) -> Result<(), String> {
+        if !self.batteries.is_empty() && !self.groups.is_empty() {
+            return Err(
+                "it has groups and batteries; put them into two files, for their results differ in kind".into(),
+            );
+        }
+        let mut names = BTreeSet::new();
+        for battery in &self.batteries {
+            let families = battery.families.join(", ");
+            battery
+                .check()
+                .map_err(|problem| format!("battery of {families}: {problem}"))?;
+            for family in &battery.families {
+                if !names.insert(family) {
+                    return Err(format!("family `{family}` stands there twice; remove one"));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The part that `--quick` runs: groups with a `quick` table, with its lists in place of theirs. The expected
@@ -178,6 +242,7 @@ impl Plan {
         self.name.push_str("-quick");
         self.expect.measured_per_domain.clear();
         self.groups = self.groups.into_iter().filter_map(Group::into_quick).collect();
+        self.batteries = self.batteries.into_iter().filter_map(Battery::into_quick).collect();
         self
     }
 

@@ -25,7 +25,7 @@ const BYTES_PER_TRIANGLE: f64 = 400.0;
 
 /// Vertices are about half as many as triangles; a mesher is stopped at this multiple of the expected triangles, far
 /// above any honest mesh.
-const VERTICES_PER_BUDGET_TRIANGLE: f64 = 2.0;
+pub(super) const VERTICES_PER_BUDGET_TRIANGLE: f64 = 2.0;
 
 /// Told of every row as it is written.
 pub trait Watch: Sync {

@@ -4,6 +4,7 @@
 //! the same bytes, in whatever order they were written.
 
 mod angles;
+mod battery;
 mod claims;
 mod duels;
 mod figures;
@@ -24,6 +25,8 @@ mod tests;
 pub use quote::quote_findings;
 
 use crate::charts::ChartError;
+use crate::experiment::battery::CHUNKS;
+use crate::experiment::battery::chunk::Chunk;
 use crate::experiment::journal::{JournalError, read_rows};
 use crate::experiment::plan::Plan;
 use crate::experiment::record::{ROWS, Row};
@@ -49,11 +52,14 @@ pub enum ReportError {
     },
 }
 
-/// Reads `folder/rows.jsonl`, writes `folder/charts/*.svg`, `*.png` and `folder/README.md`, and returns the page's path.
+/// Reads `folder/rows.jsonl`, or `folder/chunks.jsonl` where there is that in its place, writes `folder/charts/*.svg`, `*.png` and `folder/README.md`, and returns the page's path.
 ///
 /// # Errors
 /// [`ReportError`]: no rows there, a line that is no row, or a file that cannot be written.
 pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
+    if is_battery(folder) {
+        return write_battery(folder);
+    }
     let rows = read(&folder.join(ROWS))?;
     let figures = figures::draw(&rows, &folder.join("charts"))?;
     let pictures = meshes::draw(&rows, &folder.join("charts"))?;
@@ -64,6 +70,31 @@ pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
         source,
     })?;
     Ok(path)
+}
+
+/// Whether the folder holds tallied cases in place of rows.
+fn is_battery(folder: &Path) -> bool {
+    !folder.join(ROWS).exists() && folder.join(CHUNKS).exists()
+}
+
+fn write_battery(folder: &Path) -> Result<PathBuf, ReportError> {
+    let chunks: Vec<Chunk> = read_rows(&folder.join(CHUNKS))?;
+    let expect = Plan::read(&folder.join("plan.toml")).map(|plan| plan.expect);
+    let path = folder.join("README.md");
+    let text = battery::page(&chunks, &heading(folder), &expect.unwrap_or_default());
+    write_whole(&path, text.as_bytes()).map_err(|source| ReportError::Write {
+        path: path.clone(),
+        source,
+    })?;
+    Ok(path)
+}
+
+/// The main findings of a folder, a line each.
+fn finding_lines(folder: &Path) -> Result<String, ReportError> {
+    if is_battery(folder) {
+        return Ok(battery::finding_lines(&read_rows(&folder.join(CHUNKS))?));
+    }
+    Ok(page::finding_lines(&read(&folder.join(ROWS))?))
 }
 
 /// The folder's name, and the question of the plan that lies in it, if there is one.
@@ -80,7 +111,7 @@ fn heading(folder: &Path) -> page::Heading {
 
 /// The rows, sorted by what was asked, since cells that run side by side end in any order.
 fn read(path: &Path) -> Result<Vec<Row>, JournalError> {
-    let mut rows = read_rows(path)?;
+    let mut rows: Vec<Row> = read_rows(path)?;
     rows.sort_by(|a, b| {
         let names = |row: &Row| (row.group.clone(), row.cell.spacing.clone(), row.cell.domain.clone());
         let by_t = a.cell.t.total_cmp(&b.cell.t);

@@ -1,11 +1,13 @@
 //! Named domains: drawn by rule, random by seed, and real outlines.
 //!
-//! `random-convex` and `random-simple` take parameters: `random-simple:n=40,seed=7`.
+//! `random-convex` and `random-simple` take parameters: `random-simple:n=40,seed=7`. So does `random-pslg`, whose kinds are
+//! one way each to be hard: `random-pslg:kind=fan,seed=7`.
 
 use super::{Domain, DomainError, Pslg};
 
 mod outlines;
 mod random;
+mod random_pslg;
 mod shapes;
 
 /// How a named domain comes to be.
@@ -15,6 +17,8 @@ enum Make {
     Rule(fn() -> Pslg),
     /// At random: from a number of vertices (with default and largest) and a seed.
     Random(fn(usize, u64) -> Pslg, usize, usize),
+    /// At random: from a kind and a seed.
+    Kind,
     /// From the text of a `.poly` file.
     Outline(&'static str),
 }
@@ -92,6 +96,11 @@ pub const ENTRIES: &[Entry] = &[
         Make::Random(random::simple, 40, 1000),
     ),
     entry(
+        "random-pslg",
+        "one of the hard kinds of experiments/robustness.toml (:kind=polygon,seed=0)",
+        Make::Kind,
+    ),
+    entry(
         "aegean",
         "the Aegean sea with its islands as holes (km)",
         Make::Outline(outlines::AEGEAN),
@@ -142,6 +151,9 @@ pub fn pslg(spec: &str) -> Option<Result<Pslg, String>> {
     let made = match entry.make {
         Make::Rule(make) => plain().map(|()| make()),
         Make::Outline(text) => plain().and_then(|()| outlines::read(entry.name, text)),
+        Make::Kind => kind_parameters(parameters.unwrap_or(""))
+            .and_then(|(kind, seed)| random_pslg::draw(kind, seed))
+            .map(|(pslg, _)| pslg),
         Make::Random(make, count, largest) => {
             random_parameters(parameters.unwrap_or(""), count, largest).map(|(count, seed)| make(count, seed))
         }
@@ -166,9 +178,7 @@ fn random_parameters(text: &str, count: usize, largest: usize) -> Result<(usize,
                     .ok_or_else(|| format!("n={value}: give a number of vertices from 3 to {largest}"))?;
             }
             Some(("seed", value)) => {
-                seed = value
-                    .parse()
-                    .map_err(|_| format!("seed={value}: give a whole number from 0"))?;
+                seed = whole_seed(value)?;
             }
             _ => {
                 return Err(format!(
@@ -178,6 +188,45 @@ fn random_parameters(text: &str, count: usize, largest: usize) -> Result<(usize,
         }
     }
     Ok((count, seed))
+}
+
+/// Kinds of `random-pslg`, each with what is hard about it.
+pub fn kinds() -> impl Iterator<Item = (&'static str, &'static str)> {
+    random_pslg::KINDS.iter().map(|kind| (kind.name, kind.about))
+}
+
+/// How many draws of a `random-pslg` were thrown away, since they were no valid PSLG, before the one that `spec` names.
+pub fn discarded(spec: &str) -> usize {
+    let parameters = spec
+        .strip_prefix("random-pslg")
+        .map(|rest| rest.trim_start_matches(':'));
+    parameters
+        .and_then(|text| kind_parameters(text).ok())
+        .and_then(|(kind, seed)| random_pslg::draw(kind, seed).ok())
+        .map_or(0, |(_, discarded)| discarded)
+}
+
+/// Reads `kind=KIND,seed=SEED`, both optional.
+fn kind_parameters(text: &str) -> Result<(&str, u64), String> {
+    let (mut kind, mut seed) = ("polygon", 0);
+    for part in text.split(',').filter(|part| !part.is_empty()) {
+        match part.split_once('=') {
+            Some(("kind", value)) => kind = value,
+            Some(("seed", value)) => seed = whole_seed(value)?,
+            _ => {
+                return Err(format!(
+                    "\"{part}\" is no parameter; give kind=KIND and seed=SEED, joined by a comma"
+                ));
+            }
+        }
+    }
+    Ok((kind, seed))
+}
+
+fn whole_seed(value: &str) -> Result<u64, String> {
+    value
+        .parse()
+        .map_err(|_| format!("seed={value}: give a whole number from 0"))
 }
 
 #[cfg(test)]
@@ -220,6 +269,8 @@ mod tests {
             "random-simple:m=4",
             "random-convex:seed=x",
             "koch:n=3",
+            "random-pslg:kind=circle",
+            "random-pslg:n=3",
         ] {
             assert!(domain(bad).unwrap().is_err(), "{bad}");
         }

@@ -36,18 +36,18 @@ fn keys(journal: &Journal) -> Vec<&str> {
 fn rows_survive_a_kill_in_the_middle_of_a_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("deep/rows.jsonl");
-    let mut journal = Journal::open(&path).expect("new");
+    let mut journal = Journal::<Row>::open(&path).expect("new");
     journal.append(row("a", &[])).expect("append");
     journal.append(row("b", &[])).expect("append");
     drop(journal);
     let whole = std::fs::read(&path).expect("read");
     for kept in 0..whole.len() {
         std::fs::write(&path, &whole[..kept]).expect("cut");
-        let mut journal = Journal::open(&path).expect("a cut-off file opens");
+        let mut journal = Journal::<Row>::open(&path).expect("a cut-off file opens");
         let expected = whole[..kept].iter().filter(|&&byte| byte == b'\n').count();
         assert_eq!(journal.lines().len(), expected, "{kept} bytes kept");
         journal.append(row("c", &[])).expect("append");
-        assert_eq!(read_rows(&path).expect("whole again").len(), expected + 1);
+        assert_eq!(read_rows::<Row>(&path).expect("whole again").len(), expected + 1);
     }
 }
 
@@ -55,7 +55,7 @@ fn rows_survive_a_kill_in_the_middle_of_a_line() {
 fn a_later_row_replaces_an_earlier_one_and_settling_orders_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("rows.jsonl");
-    let mut journal = Journal::open(&path).expect("new");
+    let mut journal = Journal::<Row>::open(&path).expect("new");
     for line in [
         row("b", &[1.0]),
         row("gone", &[]),
@@ -68,7 +68,7 @@ fn a_later_row_replaces_an_earlier_one_and_settling_orders_them() {
     journal.settle(["a", "b", "never run"]).expect("settle");
     journal.append(row("c", &[])).expect("append after settling");
     drop(journal);
-    let journal = Journal::open(&path).expect("again");
+    let journal = Journal::<Row>::open(&path).expect("again");
     assert_eq!(keys(&journal), ["a", "b", "c"]);
     assert_eq!(journal.get("b").expect("there").samples, [1.0, 0.1 + 0.2]);
     assert_eq!(journal.lines()[1].text, row("b", &[1.0, 0.1 + 0.2]).text);
@@ -78,7 +78,7 @@ fn a_later_row_replaces_an_earlier_one_and_settling_orders_them() {
 fn setting_aside_keeps_the_old_rows() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("rows.jsonl");
-    let mut journal = Journal::open(&path).expect("new");
+    let mut journal = Journal::<Row>::open(&path).expect("new");
     assert_eq!(journal.set_aside("now").expect("nothing to keep"), None);
     journal.append(row("a", &[])).expect("append");
     let backup = journal
@@ -90,21 +90,21 @@ fn setting_aside_keeps_the_old_rows() {
         "{}",
         backup.display()
     );
-    assert_eq!(read_rows(&backup).expect("readable").len(), 1);
+    assert_eq!(read_rows::<Row>(&backup).expect("readable").len(), 1);
     journal.append(row("b", &[])).expect("append");
-    assert_eq!(read_rows(&path).expect("readable").len(), 1);
+    assert_eq!(read_rows::<Row>(&path).expect("readable").len(), 1);
 }
 
 #[test]
 fn a_second_writer_is_told_and_a_broken_line_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("rows.jsonl");
-    let journal = Journal::open(&path).expect("new");
-    let message = Journal::open(&path).expect_err("locked").to_string();
+    let journal = Journal::<Row>::open(&path).expect("new");
+    let message = Journal::<Row>::open(&path).expect_err("locked").to_string();
     assert!(message.contains("another sweep (process "), "{message}");
     drop(journal);
     std::fs::write(&path, format!("{}\n{{\n", row("a", &[]).text)).expect("write");
-    let message = Journal::open(&path).expect_err("broken").to_string();
+    let message = Journal::<Row>::open(&path).expect_err("broken").to_string();
     assert!(message.contains("rows.jsonl:2: not a row"), "{message}");
 }
 

@@ -61,11 +61,12 @@ struct Quick {
 /// A mesher with parameters.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Method {
-    mesher: String,
+pub struct Method {
+    /// Name in `MESHERS`.
+    pub mesher: String,
     /// Those that differ from the mesher's defaults.
     #[serde(default)]
-    params: Parameters,
+    pub params: Parameters,
 }
 
 fn seed_zero() -> Vec<u64> {
