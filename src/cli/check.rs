@@ -43,11 +43,12 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let store = Store::new(None, arguments.repair);
     let mesh = files::read(&arguments.mesh).map_err(Failure::input)?;
-    let guarantees = match &arguments.mesher {
-        Some(name) => meshers::find(name)
-            .map(|entry| entry.guaranteed(&arguments.params()))
-            .ok_or_else(|| Failure::Input(format!("there is no mesher `{name}`; `biting list` shows them")))?,
-        None => Vec::new(),
+    let entry = match &arguments.mesher {
+        Some(name) => Some(
+            meshers::find(name)
+                .ok_or_else(|| Failure::Input(format!("there is no mesher `{name}`; `biting list` shows them")))?,
+        ),
+        None => None,
     };
     let domain = store.domain(&arguments.domain).map_err(Failure::input)?;
     say_notes(&store, &domain);
@@ -55,6 +56,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (Some(spacing), Some(t), Some(c_b)) => {
             let cell = arguments.cell(spacing, t, c_b);
             let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
+            let is_plain = meshers::is_plain(&domain, &*prepared.spacing, c_b);
+            let guarantees = entry.map_or_else(Vec::new, |entry| entry.guaranteed(&arguments.params(), is_plain));
             quality::judge(&domain, &mesh, Some(&prepared.bounds(c_b, &guarantees)))
         }
         _ => quality::judge(&domain, &mesh, None),

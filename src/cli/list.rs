@@ -58,9 +58,14 @@ pub fn run() -> Outcome {
 
 /// The claims a method guarantees beyond the structural ones, with the parameters they need.
 fn guarantees(entry: &Entry) -> String {
-    let one = |guarantee: &Guarantee| match guarantee.with {
-        Some((name, value)) => format!("{} ({name}={value})", guarantee.claim),
-        None => guarantee.claim.to_owned(),
+    let one = |guarantee: &Guarantee| {
+        let with = guarantee.with.iter().map(|(name, value)| format!("{name}={value}"));
+        let plain = guarantee.plain.then(|| "no angle under 90°, c_b + t ≤ 1".to_owned());
+        let needs: Vec<String> = with.chain(plain).collect();
+        match needs.is_empty() {
+            true => guarantee.claim.to_owned(),
+            false => format!("{} ({})", guarantee.claim, needs.join(", ")),
+        }
     };
     let structure = std::iter::once("structure".to_owned());
     let all: Vec<String> = structure.chain(entry.guarantees.iter().map(one)).collect();

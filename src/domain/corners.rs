@@ -98,6 +98,14 @@ impl Domain {
         &self.corners.wedges[self.corners.start[v]..self.corners.start[v + 1]]
     }
 
+    /// The unit vector along segment `s` away from its end `v`, and the segment's length.
+    pub fn away(&self, s: usize, v: usize) -> (DVec2, f64) {
+        let segment = self.segments()[s];
+        let other = if segment.a == v { segment.b } else { segment.a };
+        let along = self.vertices()[other] - self.vertices()[v];
+        (along / along.length(), along.length())
+    }
+
     /// The smallest angle between segments that opens into the domain, in degrees. The paper assumes at least 90.
     pub fn smallest_input_angle_deg(&self) -> f64 {
         self.corners.smallest_input.to_degrees()

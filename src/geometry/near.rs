@@ -212,6 +212,18 @@ pub fn circle_intersections(radius: f64, other: &Near) -> [DVec2; 2] {
     [foot - offset, foot + offset]
 }
 
+/// How far from the line through their centres two circles of radius `a` and `b` at that distance meet; 0 where they do not.
+pub fn meeting_height(distance: f64, a: f64, b: f64) -> f64 {
+    let along = 0.5 * (distance + (a - b) * (a + b) / distance);
+    ((a - along) * (a + along)).max(0.0).sqrt()
+}
+
+/// Equation (9), the smaller of the bounds of Lemmas 6.3 and 6.4: the circles of neighbouring boundary vertices meet at
+/// least (1 − t) √((t² − 4t + 7)(1 − t²)) / 4 times the smaller radius above the boundary.
+pub fn least_meeting_height(t: f64) -> f64 {
+    (1.0 - t) * ((t * t - 4.0 * t + 7.0) * (1.0 - t * t)).max(0.0).sqrt() / 4.0
+}
+
 /// The binary exponent of a positive normal number: 2^level ≤ radius < 2^(level + 1).
 pub(super) fn level_of(radius: f64) -> i32 {
     ((radius.to_bits() >> 52) as i32 & 0x7ff) - 1023
@@ -233,6 +245,19 @@ pub(super) fn cell_in_block(column: i64, row: i64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn circles_meet_where_pythagoras_says() {
+        assert!((meeting_height(6.0, 5.0, 5.0) - 4.0).abs() < 1e-15);
+        assert!((meeting_height(21.0, 13.0, 20.0) - 12.0).abs() < 1e-14);
+        assert_eq!(meeting_height(3.0, 1.0, 1.0), 0.0);
+    }
+
+    #[test]
+    fn the_least_height_is_the_papers_at_zero() {
+        assert!((least_meeting_height(0.0) - 7f64.sqrt() / 4.0).abs() < 1e-15);
+        assert_eq!(least_meeting_height(1.0), 0.0);
+    }
     use proptest::prelude::*;
 
     /// Radius 0.01 + t·|x|: t-Lipschitz, graded over two powers of ten.

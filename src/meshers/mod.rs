@@ -43,23 +43,42 @@ pub struct Entry {
 pub struct Guarantee {
     /// Name of the check.
     pub claim: &'static str,
-    /// The parameter and its value that it is guaranteed with; absent where it always is.
-    pub with: Option<(&'static str, &'static str)>,
+    /// Parameters and their values that it is guaranteed with, written as in [`Parameter::default`].
+    pub with: &'static [(&'static str, &'static str)],
+    /// Whether only in plain cases, see [`is_plain`].
+    pub plain: bool,
 }
 
 impl Guarantee {
     /// Whatever the parameters.
     pub const fn always(claim: &'static str) -> Self {
-        Self { claim, with: None }
+        Self::with(claim, &[])
     }
 
-    /// Only where `parameter` has this value, written as in [`Parameter::default`].
-    pub const fn with(claim: &'static str, parameter: &'static str, value: &'static str) -> Self {
+    /// Only where parameters have these values.
+    pub const fn with(claim: &'static str, with: &'static [(&'static str, &'static str)]) -> Self {
         Self {
             claim,
-            with: Some((parameter, value)),
+            with,
+            plain: false,
         }
     }
+
+    /// Only in plain cases: elsewhere the method meshes with a smaller spacing than it was given, or without some circles.
+    pub const fn plain(claim: &'static str) -> Self {
+        Self {
+            claim,
+            with: &[],
+            plain: true,
+        }
+    }
+}
+
+/// Whether neither the domain nor the request needs anything that the paper does not have: no angle under 90° between
+/// neighbouring segments, inside or outside, and c_b + t ≤ 1.
+pub fn is_plain(domain: &Domain, spacing: &dyn Spacing, c_b: f64) -> bool {
+    domain.smallest_segment_angle_deg() >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
+        && c_b + c_b * spacing.lipschitz() <= 1.0
 }
 
 impl Entry {
@@ -73,18 +92,18 @@ impl Entry {
         all
     }
 
-    /// The claims guaranteed with the parameters given.
-    pub fn guaranteed(&self, given: &Parameters) -> Vec<&'static str> {
+    /// The claims guaranteed with the parameters given, in a plain case ([`is_plain`]) or another.
+    pub fn guaranteed(&self, given: &Parameters, is_plain: bool) -> Vec<&'static str> {
         let all = self.complete(given);
-        let holds = |guarantee: &&Guarantee| match guarantee.with {
-            Some((name, value)) => all.get(name) == Some(&parameter_value(value)),
-            None => true,
-        };
-        self.guarantees
-            .iter()
-            .filter(holds)
-            .map(|guarantee| guarantee.claim)
-            .collect()
+        let has = |(name, value): &(&str, &str)| all.get(*name) == Some(&parameter_value(value));
+        let mut claims: Vec<&'static str> = Vec::new();
+        for guarantee in self.guarantees {
+            let holds = guarantee.with.iter().all(has) && (is_plain || !guarantee.plain);
+            if holds && !claims.contains(&guarantee.claim) {
+                claims.push(guarantee.claim);
+            }
+        }
+        claims
     }
 }
 

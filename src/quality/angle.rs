@@ -1,27 +1,66 @@
-//! The smallest angle against Theorem 6.8.
+//! The smallest angle against Theorem 6.8, and angles at corners.
 
 use super::subject::{Sizes, Subject};
 use super::tally::{Tally, Worst};
 use super::{Check, min_angle_bound_deg, parallel, shape};
 use crate::geometry::DVec2;
-use crate::geometry::tolerance::CERTIFICATE;
+use crate::geometry::tolerance::{CERTIFICATE, SAME_VERTEX_ULPS};
 
-/// `min-angle`, in degrees, over the triangles that touch no vertex with an input angle under 60°.
-pub fn check(subject: &Subject, sizes: &Sizes) -> Check {
+/// `min-angle` and `min-angle-beyond-corners`: in degrees, over the triangles that touch no vertex with an input angle
+/// under 60°. They differ in what they need.
+pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
     let bound = min_angle_bound_deg(sizes.t());
-    let parts = parallel::map_ranges(subject.mesh.triangles.len(), |range| {
-        let mut tally = Tally::new(Worst::Smallest);
-        for t in range.filter(|t| !subject.is_excused(*t)) {
+    let tally = over_triangles(subject, |tally, t| {
+        if !subject.is_excused(t) {
             let corners = subject.mesh.corners(t);
-            let [a, b, c] = shape::angles_deg(corners);
-            let smallest = a.min(b).min(c);
+            let smallest = smallest_angle(corners);
             tally.see(
                 smallest,
-                corners.iter().sum::<DVec2>() / 3.0,
+                shape::centroid(corners),
                 smallest < bound * (1.0 - CERTIFICATE),
             );
         }
+    });
+    let beyond = "min-angle-beyond-corners";
+    [
+        tally
+            .clone()
+            .check("min-angle", "Theorem 6.8", sizes.applies("min-angle"), bound),
+        tally.check(beyond, "Theorem 6.8, §5.1", sizes.applies(beyond), bound),
+    ]
+}
+
+/// `corner-angles`: angles of triangles at vertices with an input angle under 60°, over the smallest input angle there.
+pub fn corner_check(subject: &Subject, sizes: &Sizes) -> Check {
+    // Coordinates are rounded, which the angle opposite to a short edge feels.
+    let ulp = SAME_VERTEX_ULPS * f64::EPSILON * subject.largest_coordinate();
+    let tally = over_triangles(subject, |tally, t| {
+        if let Some(input) = subject.input_angle_deg(t) {
+            let corners = subject.mesh.corners(t);
+            let [a, b, c] = corners;
+            let shortest = a.distance(b).min(b.distance(c)).min(c.distance(a));
+            let share = smallest_angle(corners) / input;
+            tally.see(
+                share,
+                shape::centroid(corners),
+                share < 1.0 - CERTIFICATE - ulp / shortest,
+            );
+        }
+    });
+    tally.check("corner-angles", "§5.1", sizes.applies("corner-angles"), 1.0)
+}
+
+fn smallest_angle(corners: [DVec2; 3]) -> f64 {
+    let [a, b, c] = shape::angles_deg(corners);
+    a.min(b).min(c)
+}
+
+/// Shows every triangle to a tally.
+fn over_triangles(subject: &Subject, see: impl Fn(&mut Tally, usize) + Sync) -> Tally {
+    let parts = parallel::map_ranges(subject.mesh.triangles.len(), |range| {
+        let mut tally = Tally::new(Worst::Smallest);
+        range.for_each(|t| see(&mut tally, t));
         tally
     });
-    Tally::all(Worst::Smallest, parts).check("min-angle", "Theorem 6.8", sizes.applies("min-angle"), bound)
+    Tally::all(Worst::Smallest, parts)
 }

@@ -22,6 +22,8 @@
 //! | `coverage` | Theorem 5.5 | every point of Ω is in some closed B(x, c_b f(x)) | t < 1 |
 //! | `boundary-height` | Lemmas 6.3, 6.4 | circles of neighbouring boundary vertices meet (9) · radius above the boundary | f ≤ lfs, c_b ≤ 1, t ≤ 1/3, no angle under 90° |
 //! | `min-angle` | Theorem 6.8 | sin θ ≥ 1/2 − t | the same, and no `low_head_on` |
+//! | `min-angle-beyond-corners` | Theorem 6.8, §5.1 | sin θ ≥ 1/2 − t in triangles that touch no input angle under 60° | f ≤ lfs, c_b ≤ 1, t ≤ 1/3, corners cut off |
+//! | `corner-angles` | §5.1 | no angle of a triangle at an input angle under 60° is below the smallest one there | corners cut off, each its vertex' only angle inside |
 //! | `nn-vertex-lower`, `-upper` | Lemma 5.7 | c_b (1 − t) f ≤ nn ≤ 2 c_b / (1 − t) f at vertices | f ≤ lfs, c_b ≤ 1, t < 1 |
 //! | `nn-point-lower`, `-upper` | Lemma 5.8 | c_b / (2 + 2t) f ≤ nn ≤ (3 − t) c_b / (1 − t)² f elsewhere | the same |
 //! | `vertices-lower` | follows from 5.5 | vertices ≥ (1 − t)² I / (π c_b²) | t < 1 |
@@ -71,8 +73,9 @@ pub use shape::angles_deg;
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::spacing::Spacing;
+use crate::spacing::{FLAT_T, Spacing};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_PI_2;
 
 /// 5th, 50th and 95th percentile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -236,6 +239,8 @@ pub struct Hypotheses {
     pub smallest_segment_angle_deg: f64,
     /// Input segments bitten at their two vertices only, whose circles meet lower than (9).
     pub low_head_on: usize,
+    /// Whether every vertex with an angle under 90° inside has no other angle inside.
+    pub single_corners: bool,
 }
 
 impl Hypotheses {
@@ -247,19 +252,29 @@ impl Hypotheses {
             lfs_cap: bounds.lfs_cap,
             smallest_segment_angle_deg: domain.smallest_segment_angle_deg(),
             low_head_on,
+            single_corners: has_single_corners(domain),
         }
     }
 
     /// What §6 assumes of domain and t.
     fn of_section_6(&self) -> bool {
-        self.vertices_apart()
-            && self.t <= 1.0 / 3.0
-            && self.smallest_segment_angle_deg >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
+        self.vertices_apart() && self.t <= 1.0 / 3.0 && self.has_no_small_angle()
     }
 
     /// Circles around input vertices hold no other input vertex (Lemma 5.1).
     fn vertices_apart(&self) -> bool {
         self.lfs_cap && self.c_b <= 1.0
+    }
+
+    /// Whether corners can be cut off so that the angle bound holds beyond them: to the sizes cut off there, the spacing
+    /// must come down with t.
+    fn corners_can_be_cut(&self) -> bool {
+        let is_plain = self.c_b + self.t <= 1.0 && self.has_no_small_angle();
+        self.vertices_apart() && self.t <= 1.0 / 3.0 && (self.t >= FLAT_T || is_plain)
+    }
+
+    fn has_no_small_angle(&self) -> bool {
+        self.smallest_segment_angle_deg >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
     }
 
     /// Whether a claim follows from them for a mesh made by biting.
@@ -269,9 +284,18 @@ impl Hypotheses {
             "coverage" | "vertices-lower" => self.t < 1.0,
             "boundary-height" => self.of_section_6(),
             "min-angle" => self.of_section_6() && self.low_head_on == 0,
+            "min-angle-beyond-corners" => self.corners_can_be_cut(),
+            "corner-angles" => self.single_corners,
             _ => self.vertices_apart() && self.t < 1.0,
         }
     }
+}
+
+fn has_single_corners(domain: &Domain) -> bool {
+    (0..domain.vertices().len()).all(|v| {
+        let inside = || domain.wedges(v).iter().filter(|wedge| wedge.inside);
+        inside().count() == 1 || inside().all(|wedge| wedge.angle >= FRAC_PI_2)
+    })
 }
 
 /// Theorem 6.8: asin(1/2 − t) in degrees, 0 for t ≥ 1/2.
@@ -292,7 +316,8 @@ fn certificate(subject: &subject::Subject) -> Certificate {
     if let Some(sizes) = &subject.sizes {
         checks.extend(coverage::checks(subject, sizes));
         checks.push(sizes.heights.check(sizes.applies("boundary-height")));
-        checks.push(angle::check(subject, sizes));
+        checks.extend(angle::checks(subject, sizes));
+        checks.push(angle::corner_check(subject, sizes));
         checks.extend(spread::checks(subject, sizes));
     }
     Certificate {

@@ -11,6 +11,7 @@ use super::boundary::{Boundary, NO_SEGMENT};
 use super::tally::{Tally, Worst};
 use super::{Bounds, Check};
 use crate::domain::Domain;
+use crate::geometry::near::{least_meeting_height, meeting_height};
 use crate::geometry::tolerance::CERTIFICATE;
 use crate::mesh::{Adjacency, Mesh};
 
@@ -23,11 +24,6 @@ pub struct Heights {
     bound: f64,
 }
 
-/// Equation (9), the smaller of the bounds of Lemmas 6.3 and 6.4: (1 − t) √((t² − 4t + 7)(1 − t²)) / 4.
-fn height_bound(t: f64) -> f64 {
-    (1.0 - t) * ((t * t - 4.0 * t + 7.0) * (1.0 - t * t)).max(0.0).sqrt() / 4.0
-}
-
 impl Heights {
     /// Of all mesh edges on input segments.
     pub fn measure(
@@ -38,7 +34,7 @@ impl Heights {
         bounds: &Bounds,
         at_vertex: &[f64],
     ) -> Self {
-        let bound = height_bound((bounds.c_b * bounds.spacing.lipschitz()).min(1.0));
+        let bound = least_meeting_height((bounds.c_b * bounds.spacing.lipschitz()).min(1.0));
         let mut heights = Self {
             protected: Tally::new(Worst::Smallest),
             low_head_on: 0,
@@ -71,29 +67,5 @@ impl Heights {
         self.protected
             .clone()
             .check("boundary-height", "Lemmas 6.3 and 6.4", applies, self.bound)
-    }
-}
-
-/// How far from the line through their centres two circles at that distance meet; 0 where they do not.
-fn meeting_height(distance: f64, a: f64, b: f64) -> f64 {
-    let along = 0.5 * (distance + (a - b) * (a + b) / distance);
-    ((a - along) * (a + along)).max(0.0).sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn circles_meet_where_pythagoras_says() {
-        assert!((meeting_height(6.0, 5.0, 5.0) - 4.0).abs() < 1e-15);
-        assert!((meeting_height(21.0, 13.0, 20.0) - 12.0).abs() < 1e-14);
-        assert_eq!(meeting_height(3.0, 1.0, 1.0), 0.0);
-    }
-
-    #[test]
-    fn the_bound_is_the_papers_at_zero() {
-        assert!((height_bound(0.0) - 7f64.sqrt() / 4.0).abs() < 1e-15);
-        assert_eq!(height_bound(1.0), 0.0);
     }
 }

@@ -8,6 +8,11 @@ pub fn angles_deg([a, b, c]: [DVec2; 3]) -> [f64; 3] {
     [angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)]
 }
 
+/// Mean of the corners.
+pub fn centroid(corners: [DVec2; 3]) -> DVec2 {
+    corners.iter().sum::<DVec2>() / 3.0
+}
+
 /// Centre of the circle through the corners; not finite where they are collinear.
 pub fn circumcentre([a, b, c]: [DVec2; 3]) -> DVec2 {
     let (u, v) = (b - a, c - a);

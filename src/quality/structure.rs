@@ -3,7 +3,7 @@
 use super::boundary::{NO_SEGMENT, same_vertex_distance};
 use super::subject::Subject;
 use super::tally::{Tally, Worst};
-use super::{Check, parallel};
+use super::{Check, parallel, shape};
 use crate::geometry::DVec2;
 use crate::geometry::predicates::{in_circle, orient2d};
 use crate::geometry::tolerance::AREA;
@@ -23,17 +23,13 @@ pub fn checks(subject: &Subject) -> Vec<Check> {
     ]
 }
 
-fn centroid(corners: [DVec2; 3]) -> DVec2 {
-    corners.iter().sum::<DVec2>() / 3.0
-}
-
 fn positive_orientation(subject: &Subject) -> Check {
     let mesh = subject.mesh;
     let parts = parallel::map_ranges(mesh.triangles.len(), |range| {
         let mut tally = Tally::new(Worst::Smallest);
         for corners in range.map(|t| mesh.corners(t)) {
             let twice = orient2d(corners[0], corners[1], corners[2]);
-            tally.see(0.5 * twice, centroid(corners), twice <= 0.0);
+            tally.see(0.5 * twice, shape::centroid(corners), twice <= 0.0);
         }
         tally
     });

@@ -15,8 +15,9 @@ pub struct Subject<'a> {
     pub mesh: &'a Mesh,
     pub adjacency: Adjacency,
     pub boundary: Boundary,
-    /// Whether each mesh vertex is an input vertex with an angle under 60° that opens into the domain.
-    acute: Vec<bool>,
+    /// For each mesh vertex the smallest angle in degrees that opens into the domain there, if it is an input vertex where
+    /// one is under 60°; else infinite.
+    acute: Vec<f64>,
     /// How many triangles touch such a vertex.
     pub excused: usize,
     /// The spacing and what it says about the mesh, if there is one.
@@ -46,16 +47,19 @@ impl<'a> Subject<'a> {
     pub fn new(domain: &'a Domain, mesh: &'a Mesh, bounds: Option<&Bounds<'a>>) -> Self {
         let adjacency = mesh.adjacency();
         let boundary = Boundary::find(domain, mesh, &adjacency);
-        let mut acute = vec![false; mesh.points.len()];
+        let mut acute = vec![f64::INFINITY; mesh.points.len()];
         for &v in domain.acute_vertices() {
             if let Some(k) = boundary.vertex[v] {
-                acute[k as usize] = true;
+                let inside = domain.wedges(v).iter().filter(|wedge| wedge.inside);
+                acute[k as usize] = inside
+                    .map(|wedge| wedge.angle.to_degrees())
+                    .fold(f64::INFINITY, f64::min);
             }
         }
         let excused = mesh
             .triangles
             .iter()
-            .filter(|triangle| triangle.iter().any(|k| acute[*k as usize]))
+            .filter(|triangle| triangle.iter().any(|k| acute[*k as usize].is_finite()))
             .count();
         let sizes = bounds.map(|bounds| Sizes::new(domain, mesh, &adjacency, &boundary, *bounds));
         Self {
@@ -71,7 +75,20 @@ impl<'a> Subject<'a> {
 
     /// Whether triangle `t` touches a vertex with an acute input angle.
     pub fn is_excused(&self, t: usize) -> bool {
-        self.mesh.triangles[t].iter().any(|k| self.acute[*k as usize])
+        self.input_angle_deg(t).is_some()
+    }
+
+    /// The smallest input angle at the vertices of triangle `t` that have one under 60°, if any has.
+    pub fn input_angle_deg(&self, t: usize) -> Option<f64> {
+        let angles = self.mesh.triangles[t].iter().map(|k| self.acute[*k as usize]);
+        let smallest = angles.fold(f64::INFINITY, f64::min);
+        smallest.is_finite().then_some(smallest)
+    }
+
+    /// The largest coordinate of the mesh by magnitude.
+    pub fn largest_coordinate(&self) -> f64 {
+        let largest = |p: &DVec2| p.abs().max_element();
+        self.mesh.points.iter().map(largest).fold(0.0, f64::max)
     }
 
     /// The middle of edge `e` of the adjacency.

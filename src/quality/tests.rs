@@ -31,11 +31,13 @@ const UNIFORM: Linear = Linear {
     slope: DVec2::ZERO,
 };
 
-const CLAIMS: [&str; 10] = [
+const CLAIMS: [&str; 12] = [
     "packing-disjoint",
     "coverage",
     "boundary-height",
     "min-angle",
+    "min-angle-beyond-corners",
+    "corner-angles",
     "nn-vertex-lower",
     "nn-vertex-upper",
     "nn-point-lower",
@@ -45,8 +47,8 @@ const CLAIMS: [&str; 10] = [
 ];
 
 /// The paper's and the one structural claim that not all methods make.
-const GUARANTEED: [&str; 11] = {
-    let mut all = ["constrained-delaunay"; 11];
+const GUARANTEED: [&str; 13] = {
+    let mut all = ["constrained-delaunay"; 13];
     all.split_at_mut(1).1.copy_from_slice(&CLAIMS);
     all
 };
@@ -113,7 +115,7 @@ fn a_good_mesh_has_a_whole_certificate() {
         certificate
             .checks
             .iter()
-            .all(|check| check.holds && check.applies && check.worst.is_some())
+            .all(|check| check.holds && check.applies && check.worst.is_some() == (check.claim != "corner-angles"))
     );
     let worst = |claim: &str| certificate.check(claim).unwrap().worst.unwrap();
     let near = |x: f64, y: f64| (x - y).abs() < 1e-12;
@@ -261,33 +263,42 @@ fn checks_apply_only_under_their_hypotheses() {
         lfs_cap: true,
         smallest_segment_angle_deg: 90.0,
         low_head_on: 0,
+        single_corners: true,
     };
     let implied = |hypotheses: Hypotheses| CLAIMS.into_iter().filter(|claim| hypotheses.imply(claim)).count();
-    assert_eq!(implied(right), 10);
+    assert_eq!(implied(right), 12);
     assert_eq!(
         implied(Hypotheses {
             low_head_on: 1,
             ..right
         }),
-        9
+        11
     );
     assert_eq!(
         implied(Hypotheses {
             smallest_segment_angle_deg: 80.0,
             ..right
         }),
-        8
+        10
     );
-    assert_eq!(implied(Hypotheses { t: 0.4, ..right }), 8);
-    assert_eq!(implied(Hypotheses { c_b: 1.2, ..right }), 2);
+    assert_eq!(implied(Hypotheses { t: 0.4, ..right }), 9);
+    assert_eq!(implied(Hypotheses { c_b: 1.2, ..right }), 3);
     assert_eq!(
         implied(Hypotheses {
             lfs_cap: false,
             ..right
         }),
-        2
+        3
     );
-    assert_eq!(implied(Hypotheses { t: 1.0, ..right }), 2);
+    assert_eq!(implied(Hypotheses { t: 1.0, ..right }), 3);
+    let flat = Hypotheses { t: 0.04, ..right };
+    let flat_and_acute = Hypotheses {
+        smallest_segment_angle_deg: 80.0,
+        single_corners: false,
+        ..flat
+    };
+    assert_eq!(implied(flat), 12);
+    assert!(!flat_and_acute.imply("min-angle-beyond-corners") && !flat_and_acute.imply("corner-angles"));
     let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
     let none = Bounds {
         guaranteed: &[],
@@ -495,4 +506,28 @@ fn circles_that_meet_low_are_a_hypothesis_on_whole_segments_and_a_fault_on_cut_o
     let (_, certificate) = judge(&square, &cut, Some(&bounds(&UNIFORM, 0.26)));
     let check = certificate.check("boundary-height").unwrap();
     assert!(!check.holds && check.broken == 2 && check.applies, "{check:?}");
+}
+
+#[test]
+fn angles_at_a_corner_are_held_against_the_smallest_input_angle_there() {
+    // Half of an equilateral triangle: input angles of 30°, 60° and 90°.
+    let half = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0 / 3f64.sqrt())];
+    let domain = domain(&half, &[]);
+    let corner = |points: &[DVec2], triangles: &[[u32; 3]]| {
+        let (_, certificate) = judge(&domain, &mesh(points, triangles), Some(&bounds(&UNIFORM, 0.3)));
+        certificate.check("corner-angles").unwrap().clone()
+    };
+    let whole = corner(&half, &[[0, 1, 2]]);
+    assert!(
+        whole.holds && whole.applies && (whole.worst.unwrap() - 1.0).abs() < 1e-12,
+        "{whole:?}"
+    );
+    let split = corner(
+        &[half[0], half[1], half[2], p(1.0, (15f64).to_radians().tan())],
+        &[[0, 1, 3], [0, 3, 2]],
+    );
+    assert!(
+        !split.holds && split.broken == 2 && (split.worst.unwrap() - 0.5).abs() < 1e-12,
+        "{split:?}"
+    );
 }

@@ -43,6 +43,10 @@ pub use limited::Limited;
 pub use parse::{KINDS, Spec, spec_for_size};
 pub use uniform::Uniform;
 
+/// The t = α c_b below which a spacing counts as flat: where biting must come down to a smaller size beside a corner, it
+/// then grows away from there faster than the spacing would.
+pub const FLAT_T: f64 = 0.05;
+
 /// A control spacing function f.
 pub trait Spacing: Send + Sync {
     /// f(x): finite and positive on the domain, in the length unit of the domain.

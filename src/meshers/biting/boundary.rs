@@ -31,6 +31,11 @@ fn corner_protection(front: &mut Front) -> Result<Vec<Vec<(f64, u32)>>, MeshErro
             placed.push((along, front.bite_boundary(Disc { centre, radius })?));
         }
     }
+    // Points between the segments of a corner are on none.
+    for &centre in &cuts.between {
+        let radius = front.radius_at(centre)?;
+        front.bite_boundary(Disc { centre, radius })?;
+    }
     Ok(placed)
 }
 
@@ -97,8 +102,12 @@ impl Gap {
         }
     }
 
+    fn at(&self, position: f64) -> DVec2 {
+        self.start + self.direction * position
+    }
+
     fn circle_at(&self, front: &Front, position: f64) -> Result<Disc, MeshError> {
-        let centre = self.start + self.direction * position;
+        let centre = self.at(position);
         Ok(Disc {
             centre,
             radius: front.radius_at(centre)?,
@@ -125,14 +134,15 @@ impl Gap {
 
     /// The gap with its low end q₁ moved out of the circles that cover it, and the biting circle there; none where
     /// nothing is left of it.
-    fn trimmed(mut self, front: &mut Front) -> Result<Option<(Self, Disc)>, MeshError> {
+    fn trimmed(mut self, front: &Front) -> Result<Option<(Self, Disc)>, MeshError> {
         while self.low <= self.high {
             let circle = self.circle_at(front, self.low)?;
-            let exits = front
-                .covering(circle)
-                .iter()
-                .filter_map(|near| self.chord(circle, near))
-                .map(|(_, exit)| exit);
+            let seen = |near: &&Near| front.sees(near.id, circle.centre);
+            let near = front.covering(circle);
+            let exits = near.iter().filter(seen).filter_map(|near| {
+                let (_, exit) = self.chord(circle, near)?;
+                front.sees(near.id, self.at(exit.min(self.high))).then_some(exit)
+            });
             let exit = exits.fold(self.low, f64::max);
             if exit == self.low {
                 return Ok(Some((self, circle)));
@@ -147,7 +157,7 @@ impl Gap {
     /// Let q₂ be the next covered point of the segment. Where the circle at q₁ does not reach it, bite at q₁; else,
     /// where the circle at q₂ does not reach q₁, bite at q₂; else bite at the middle of q₁ q₂. If the circle that
     /// covers q₂ ends within the gap, the part behind it is queued as a gap of its own.
-    fn next_bite(&self, front: &mut Front, at_low: Disc, gaps: &mut VecDeque<Gap>) -> Result<(f64, Disc), MeshError> {
+    fn next_bite(&self, front: &Front, at_low: Disc, gaps: &mut VecDeque<Gap>) -> Result<(f64, Disc), MeshError> {
         let (far, behind) = self.far_side(front, at_low);
         if far - self.low > at_low.radius {
             return Ok((self.low, at_low));
@@ -165,8 +175,12 @@ impl Gap {
 
     /// q₂, the next covered point behind the low end as far as the circle there can tell, and where the circle that
     /// covers it is left again.
-    fn far_side(&self, front: &mut Front, at_low: Disc) -> (f64, f64) {
-        let chords = front.meeting(at_low).iter().filter_map(|near| self.chord(at_low, near));
+    fn far_side(&self, front: &Front, at_low: Disc) -> (f64, f64) {
+        let near = front.meeting(at_low);
+        let chords = near.iter().filter_map(|near| {
+            let chord = self.chord(at_low, near)?;
+            front.sees(near.id, self.at(chord.0)).then_some(chord)
+        });
         chords
             .filter(|&(entry, _)| self.low <= entry && entry < self.high)
             .fold((self.high, self.high), |nearest, chord| {

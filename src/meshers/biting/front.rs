@@ -12,6 +12,7 @@
 //! O(1) a bite, however graded the spacing is; nothing is scanned globally or rebuilt.
 
 use super::corners::Cuts;
+use super::notches::Notches;
 use super::order::{Order, Queue, Ticket};
 use crate::domain::Domain;
 use crate::geometry::near::{Disc, DiscGrid, Near, circle_intersections};
@@ -66,6 +67,10 @@ pub(super) struct Front<'a> {
     pub domain: &'a Domain,
     /// The corners that are left out.
     pub cuts: &'a Cuts,
+    /// What circles cannot see across.
+    notches: &'a Notches,
+    /// For each circle, whether it may hold points that its centre cannot see.
+    beside_notch: Vec<bool>,
     radii: Sizing<'a>,
     /// The biting circles, in the order of bites.
     pub bitten: DiscGrid,
@@ -86,22 +91,19 @@ impl<'a> Front<'a> {
     pub fn new(
         domain: &'a Domain,
         cuts: &'a Cuts,
+        notches: &'a Notches,
         spacing: &'a dyn Spacing,
         order: Order,
         request: &Request,
-    ) -> Result<Self, MeshError> {
+    ) -> Self {
         let radii = Sizing::new(domain, spacing, request);
-        let t = radii.t();
-        if t.is_nan() || t >= 1.0 {
-            return Err(MeshError::Declined(format!(
-                "biting needs t = alpha c_b below 1, and here it is {t}; limit the spacing's gradient (--t)"
-            )));
-        }
-        Ok(Self {
+        Self {
             domain,
             cuts,
+            notches,
+            beside_notch: Vec::new(),
             radii,
-            bitten: DiscGrid::new(t),
+            bitten: DiscGrid::new(radii.t()),
             boundary_count: u32::MAX,
             first_vertex: Vec::new(),
             slots: Vec::new(),
@@ -110,7 +112,7 @@ impl<'a> Front<'a> {
             queue: Queue::new(order, request.seed),
             near: Vec::new(),
             monitor: Monitor::new(&request.budget),
-        })
+        }
     }
 
     /// c_b f(x), refused where f breaks its promise or the coordinates cannot resolve it.
@@ -133,16 +135,23 @@ impl<'a> Front<'a> {
     }
 
     /// The bitten discs whose interior meets `disc`.
-    pub fn meeting(&mut self, disc: Disc) -> &[Near] {
-        self.bitten.meeting(disc.centre, disc.radius, &mut self.near);
-        &self.near
+    pub fn meeting(&self, disc: Disc) -> Vec<Near> {
+        let mut near = Vec::new();
+        self.bitten.meeting(disc.centre, disc.radius, &mut near);
+        near
     }
 
-    /// The bitten discs that cover the centre of `disc`.
-    pub fn covering(&mut self, disc: Disc) -> &[Near] {
+    /// The bitten discs that cover the centre of `disc`, seen or not.
+    pub fn covering(&self, disc: Disc) -> Vec<Near> {
+        let mut near = Vec::new();
         self.bitten
-            .covering(disc.centre, disc.radius, tolerance::COVERED, &mut self.near);
-        &self.near
+            .covering(disc.centre, disc.radius, tolerance::COVERED, &mut near);
+        near
+    }
+
+    /// Whether no notch stands between the centre of a bitten disc and a point that it holds.
+    pub fn sees(&self, id: u32, point: DVec2) -> bool {
+        !self.beside_notch[id as usize] || !self.notches.part(self.bitten.disc(id).centre, point)
     }
 
     /// The front once the input boundary is covered: the vertices between boundary circles inside the domain.
@@ -179,8 +188,8 @@ impl<'a> Front<'a> {
         };
         let mut near = std::mem::take(&mut self.near);
         self.bitten.meeting(disc.centre, disc.radius, &mut near);
-        self.remove_vertices(disc, &near);
         let id = self.insert(disc)?;
+        self.remove_vertices(disc, id, &near);
         let result = self.add_vertices(disc, id, &near, |_| true);
         self.near = near;
         result
@@ -189,25 +198,26 @@ impl<'a> Front<'a> {
     fn insert(&mut self, disc: Disc) -> Result<u32, MeshError> {
         self.monitor.placed(self.bitten.len() + 1, disc.centre, disc.radius)?;
         self.first_vertex.push(NONE);
+        self.beside_notch.push(self.notches.are_near(disc));
         Ok(self.bitten.insert(disc))
     }
 
     /// Removes the front vertices inside `disc`. Both circles of such a vertex meet `disc`, so both are in `near`: the
     /// vertex leaves one list at the first visit and is freed at the second.
-    fn remove_vertices(&mut self, disc: Disc, near: &[Near]) {
+    fn remove_vertices(&mut self, disc: Disc, id: u32, near: &[Near]) {
         let inside = (disc.radius * (1.0 - tolerance::COVERED)).powi(2);
         for other in near {
             let mut before = None;
             let mut index = self.first_vertex[other.id as usize];
             while index != NONE {
-                let slot = &mut self.slots[index as usize];
+                let slot = self.slots[index as usize];
                 let side = usize::from(slot.discs[1] == other.id);
                 let next = slot.next[side];
-                if slot.point.distance_squared(disc.centre) < inside {
+                if slot.point.distance_squared(disc.centre) < inside && self.sees(id, slot.point) {
                     if slot.serial == NONE {
                         self.free_slots.push(index);
                     }
-                    slot.serial = NONE;
+                    self.slots[index as usize].serial = NONE;
                     match before {
                         None => self.first_vertex[other.id as usize] = next,
                         Some((previous, side)) => self.slots[previous as usize].next[side] = next,
@@ -236,10 +246,11 @@ impl<'a> Front<'a> {
                 continue;
             }
             for relative in circle_intersections(disc.radius, other) {
-                if is_covered(relative, near, index) {
+                let point = disc.centre + relative;
+                if self.is_covered(relative, point, near, index) || !self.sees(id, point) || !self.sees(other.id, point)
+                {
                     continue;
                 }
-                let point = disc.centre + relative;
                 if near_boundary && (!self.domain.contains(point) || self.cuts.hold(point)) {
                     continue;
                 }
@@ -284,13 +295,13 @@ impl<'a> Front<'a> {
             .push(Ticket { serial, slot: index }, vertex, || spacing.at(point));
         Ok(())
     }
-}
 
-/// Whether a disc of `near` other than the one at `except` covers the point. Discs count as a little smaller than they
-/// are, so that a vertex on several circles at once is kept.
-fn is_covered(relative: DVec2, near: &[Near], except: usize) -> bool {
-    near.iter().enumerate().any(|(index, other)| {
-        let shrunk = other.radius * (1.0 - tolerance::COVERED);
-        index != except && relative.distance_squared(other.offset) < shrunk * shrunk
-    })
+    /// Whether a disc of `near` other than the one at `except` covers the point. Discs count as a little smaller than they
+    /// are, so that a vertex on several circles at once is kept.
+    fn is_covered(&self, relative: DVec2, point: DVec2, near: &[Near], except: usize) -> bool {
+        near.iter().enumerate().any(|(index, other)| {
+            let shrunk = other.radius * (1.0 - tolerance::COVERED);
+            index != except && relative.distance_squared(other.offset) < shrunk * shrunk && self.sees(other.id, point)
+        })
+    }
 }

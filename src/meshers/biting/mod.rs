@@ -9,6 +9,7 @@
 //! # Steps
 //! 1. the control spacing is prepared before ([`crate::spacing`]);
 //! 2. the initial front is the boundary of the domain ([`front::Front::new`]);
+//!    Corners are cut off and the spacing is held down beside them ([`corners`]);
 //! 3. [`boundary::vertex_protection`] bites every input vertex;
 //! 4. [`boundary::edge_protection`] bites along the input segments until they are covered;
 //! 5. [`interior::interior_biting`] bites at front vertices until the front is empty;
@@ -19,7 +20,10 @@
 //! `packing-disjoint`); every point of the domain is covered by a biting circle (Theorem 5.5, `coverage`); the
 //! smallest angle is at least asin(1/2 − t) (Theorem 6.8, `min-angle`); nearest-neighbour distances are within
 //! constants of f (Lemmas 5.7 and 5.8, `nn-vertex-*`, `nn-point-*`). What each needs besides is in [`crate::quality`]:
-//! the angle bound, for one, needs c_b + t ≤ 1, which the paper does not say.
+//! the angle bound of the paper to the letter, for one, needs c_b + t ≤ 1, which the paper does not say. With corners
+//! cut off, every triangle that touches no input angle under 60° meets the angle bound (`min-angle-beyond-corners`), and no
+//! angle of the others is below the smallest input angle there (`corner-angles`); what is about f holds where
+//! nothing was cut or held down.
 //!
 //! # Cost
 //! O(1) a bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
@@ -35,8 +39,12 @@
 //!   are not are counted in [`Mesh::forced_pieces`].
 //!   They need no acute angle: a middle piece on an inner segment can be 1.5 radii long, and vertices √7/4 radii above and
 //!   below its middle lie in its diametral circle.
-//! * Input angles under 90°, which the paper excludes, are bitten like any other unless [`Corners::Cut`] is asked for: a
-//!   point of one segment that a circle of another covers already gets no circle of its own.
+//! * Input angles under 90°, which the paper excludes, are cut off, as §5.1 suggests without saying how, and given back
+//!   ([`corners`]); and circles do not cover across an angle under 90° that opens to the outside ([`notches`]). With
+//!   [`Corners::Bite`] they are bitten like any other: a point of one segment that a circle of another covers already gets
+//!   no circle of its own.
+//! * Where the circles of a segment's two ends would cover it between them and meet low, which Lemma 6.4 does not see, they
+//!   are held apart ([`HeadOn::Part`]), so that the angle bound needs no c_b + t ≤ 1.
 //!
 //! # Reference
 //! X.-Y. Li, S.-H. Teng, A. Üngör, "Biting: Advancing Front Meets Sphere Packing".
@@ -45,14 +53,16 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 mod boundary;
+mod capped;
 mod corners;
+mod fan;
 mod front;
 mod interior;
+mod notches;
 mod order;
 #[cfg(test)]
 mod tests;
 
-pub use corners::Corners;
 pub use order::Order;
 
 use super::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
@@ -62,7 +72,31 @@ use crate::geometry::DVec2;
 use crate::mesh::{Mesh, Piece};
 use crate::spacing::Spacing;
 use corners::Cuts;
+use notches::Notches;
 use serde::{Deserialize, Serialize};
+
+/// What is done about input angles under 90°, which the paper's theorems exclude.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Corners {
+    /// They are bitten like any other, and circles cover across a notch: the paper to the letter.
+    Bite,
+    /// Those inside are cut off before biting, and given back; across those outside, no circle covers anything.
+    #[default]
+    Cut,
+}
+
+/// What is done about segments that the circles of their two ends cover between them while meeting low, which Theorem 6.8
+/// silently excludes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HeadOn {
+    /// Nothing: the paper to the letter.
+    Leave,
+    /// The two circles are made smaller, and a third is put between them.
+    #[default]
+    Part,
+}
 
 /// The biting method and its parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -72,7 +106,12 @@ pub struct Biting {
     pub order: Order,
     /// What is done about input angles under 90°, which the paper excludes.
     pub corners: Corners,
+    /// What is done about circles that cover a segment between them and meet low.
+    pub head_on: HeadOn,
 }
+
+/// The paper without anything of ours.
+const TO_THE_LETTER: &[(&str, &str)] = &[("corners", "bite"), ("head_on", "leave")];
 
 pub(super) const ENTRY: Entry = Entry {
     name: "biting",
@@ -86,23 +125,39 @@ pub(super) const ENTRY: Entry = Entry {
         },
         Parameter {
             name: "corners",
-            values: "bite, cut",
-            default: "bite",
-            help: "whether input angles under 90° are bitten like any other, or cut off first and given back (§5.1; pays for small c_b so far)",
+            values: "cut, bite",
+            default: "cut",
+            help: "whether input angles under 90° are cut off first and given back (§5.1), or bitten like any other",
+        },
+        Parameter {
+            name: "head_on",
+            values: "part, leave",
+            default: "part",
+            help: "whether two circles that cover a segment between them but meet low are made smaller, a third between them",
         },
     ],
     guarantees: &[
         Guarantee::always("constrained-delaunay"),
-        Guarantee::with("packing-disjoint", "corners", "bite"),
-        Guarantee::with("coverage", "corners", "bite"),
         Guarantee::always("boundary-height"),
         Guarantee::always("min-angle"),
-        Guarantee::with("nn-vertex-lower", "corners", "bite"),
-        Guarantee::with("nn-vertex-upper", "corners", "bite"),
-        Guarantee::with("nn-point-lower", "corners", "bite"),
-        Guarantee::with("nn-point-upper", "corners", "bite"),
-        Guarantee::with("vertices-lower", "corners", "bite"),
-        Guarantee::with("vertices-upper", "corners", "bite"),
+        Guarantee::with("min-angle-beyond-corners", &[("corners", "cut"), ("head_on", "part")]),
+        Guarantee::with("corner-angles", &[("corners", "cut")]),
+        Guarantee::plain("packing-disjoint"),
+        Guarantee::plain("coverage"),
+        Guarantee::plain("nn-vertex-lower"),
+        Guarantee::plain("nn-vertex-upper"),
+        Guarantee::plain("nn-point-lower"),
+        Guarantee::plain("nn-point-upper"),
+        Guarantee::plain("vertices-lower"),
+        Guarantee::plain("vertices-upper"),
+        Guarantee::with("packing-disjoint", TO_THE_LETTER),
+        Guarantee::with("coverage", TO_THE_LETTER),
+        Guarantee::with("nn-vertex-lower", TO_THE_LETTER),
+        Guarantee::with("nn-vertex-upper", TO_THE_LETTER),
+        Guarantee::with("nn-point-lower", TO_THE_LETTER),
+        Guarantee::with("nn-point-upper", TO_THE_LETTER),
+        Guarantee::with("vertices-lower", TO_THE_LETTER),
+        Guarantee::with("vertices-upper", TO_THE_LETTER),
     ],
     make: from_parameters::<Biting>,
 };
@@ -125,17 +180,22 @@ impl Biting {
         request: &Request,
         trace: &mut Trace,
     ) -> Result<Bitten, MeshError> {
-        let (cuts, graded) = match self.corners {
-            Corners::Bite => (Cuts::none(domain), None),
-            Corners::Cut => {
-                let (cuts, graded) = trace.step("corner_cutting", || Cuts::new(domain, spacing, request));
-                trace.count("corners_cut", cuts.count as f64);
-                trace.count("corners_left", cuts.left as f64);
-                (cuts, Some(graded))
-            }
+        let t = request.c_b * spacing.lipschitz();
+        if t.is_nan() || t >= 1.0 {
+            return Err(MeshError::Declined(format!(
+                "biting needs t = alpha c_b below 1, and here it is {t}; limit the spacing's gradient (--t)"
+            )));
+        }
+        let (cuts, capped) = trace.step("corner_cutting", || Cuts::new(self, domain, spacing, request))?;
+        trace.count("corners_cut", cuts.count as f64);
+        trace.count("angles_narrowed", cuts.narrowed as f64);
+        trace.count("segments_parted", cuts.parted as f64);
+        let notches = match self.corners {
+            Corners::Bite => Notches::default(),
+            Corners::Cut => Notches::new(domain),
         };
-        let spacing = graded.as_ref().map_or(spacing, |graded| graded);
-        let mut front = front::Front::new(domain, &cuts, spacing, self.order, request)?;
+        let spacing: &dyn Spacing = if capped.is_empty() { spacing } else { &capped };
+        let mut front = front::Front::new(domain, &cuts, &notches, spacing, self.order, request);
         trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
         let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;
         let centres = trace.step("interior_biting", || interior::interior_biting(front))?;
