@@ -71,10 +71,7 @@ fn certified(entry: &Entry, pslg: &Pslg, spec: &str, what: &str) -> Option<Mesh>
         lfs_cap: prepared.lfs_cap,
         integral: None,
         integral_error: 0.0,
-        guaranteed: &entry.guaranteed(
-            &Parameters::new(),
-            biting::meshers::is_plain(&domain, &*prepared.function, C_B),
-        ),
+        guaranteed: &entry.guaranteed(&Parameters::new(), &domain, &*prepared.function, C_B),
     };
     let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
     let broken: Vec<_> = certificate

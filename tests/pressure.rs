@@ -86,7 +86,7 @@ fn pressed(pslg: &Pslg) -> Vec<Result<(), String>> {
             lfs_cap: built.lfs_cap,
             integral: None,
             integral_error: 0.0,
-            guaranteed: &entry.guaranteed(&Parameters::new()),
+            guaranteed: &entry.guaranteed(&Parameters::new(), &domain, &*built.function, C_B),
         };
         let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
         let broken: Vec<_> = certificate

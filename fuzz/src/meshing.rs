@@ -87,7 +87,7 @@ fn hold(domain: &Domain, mesh: &biting::mesh::Mesh, prepared: &Prepared, c_b: f6
         lfs_cap: prepared.lfs_cap,
         integral: None,
         integral_error: 0.0,
-        guaranteed: &entry.guaranteed(&Parameters::new(), biting::meshers::is_plain(domain, &*prepared.function, c_b)),
+        guaranteed: &entry.guaranteed(&Parameters::new(), domain, &*prepared.function, c_b),
     };
     let (_, certificate) = judge(domain, mesh, Some(&bounds));
     let broken: Vec<_> = certificate

@@ -68,7 +68,7 @@ impl Figure for Sheet<'_> {
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
         let (left, right) = area.split_horizontally((1200 - SIDE as i32) * FINE);
         match self.meshes {
-            [(_, mesh)] => draw(&left, mesh)?,
+            [(_, mesh)] => draw(&left, mesh, bounds(mesh))?,
             meshes => {
                 let areas = left.split_evenly((meshes.len().div_ceil(2), 2));
                 for ((title, mesh), area) in meshes.iter().zip(&areas) {
@@ -76,48 +76,60 @@ impl Figure for Sheet<'_> {
                     let middle = (head.dim_in_pixel().0 as i32 / 2, 22 * FINE);
                     let look = style::text(TITLE, INK, HPos::Center, VPos::Center);
                     head.draw(&Text::new(title.to_string(), middle, look))?;
-                    draw(&body, mesh)?;
+                    draw(&body, mesh, bounds(mesh))?;
                 }
             }
         }
-        let ticks: Vec<_> = (0..=6).map(|k| (f64::from(k) * 10.0, format!("{}°", k * 10))).collect();
-        let words = style::text(SMALL, INK, HPos::Left, VPos::Center);
-        for (line, word) in ["smallest", "angle"].into_iter().enumerate() {
-            right.draw(&Text::new(
-                word,
-                (4 * FINE, (24 + 22 * line as i32) * FINE),
-                words.clone(),
-            ))?;
-        }
-        let (_, bar) = right.split_vertically(20 * FINE);
-        colour_bar(&bar, "", 0.0..60.0, &ticks, BANDS)
+        angle_bar(&right)
     }
+}
+
+/// What the colours mean.
+pub(super) fn angle_bar<DB: DrawingBackend>(area: &Area<DB>) -> Drawn {
+    let ticks: Vec<_> = (0..=6).map(|k| (f64::from(k) * 10.0, format!("{}°", k * 10))).collect();
+    let words = style::text(SMALL, INK, HPos::Left, VPos::Center);
+    for (line, word) in ["smallest", "angle"].into_iter().enumerate() {
+        area.draw(&Text::new(
+            word,
+            (4 * FINE, (24 + 22 * line as i32) * FINE),
+            words.clone(),
+        ))?;
+    }
+    let (_, bar) = area.split_vertically(20 * FINE);
+    colour_bar(&bar, "", 0.0..60.0, &ticks, BANDS)
+}
+
+/// The box around a mesh.
+pub(super) fn bounds(mesh: &Mesh) -> Rect {
+    Rect::around(mesh.points.iter().copied())
 }
 
 /// Shorter edges would hide the colours between them; drawing units.
 const SHORTEST_EDGE: i32 = 5 * FINE;
 
-/// Draws triangles, their edges where there is room for them, and the input segments.
-fn draw<DB: DrawingBackend>(area: &Area<DB>, mesh: &Mesh) -> Drawn {
-    let view = View::of(mesh, area.dim_in_pixel());
-    for corners in (0..mesh.triangles.len()).map(|t| mesh.corners(t)) {
+/// Draws triangles, their edges where there is room for them, and the input segments: those wholly within `window`.
+pub(super) fn draw<DB: DrawingBackend>(area: &Area<DB>, mesh: &Mesh, window: Rect) -> Drawn {
+    let view = View::of(window, area.dim_in_pixel());
+    let corners = (0..mesh.triangles.len()).map(|t| mesh.corners(t));
+    for corners in corners.filter(|corners| corners.iter().all(|&point| window.contains(point))) {
         let places = corners.map(|point| view.place(point)).to_vec();
         let smallest = angles_deg(corners).into_iter().fold(60.0, f64::min);
         area.draw(&Polygon::new(places, band(smallest).filled()))?;
     }
     let edge = style::stroke(RGBColor(60, 60, 60), 1);
-    for ends in edges(mesh)
-        .into_iter()
-        .map(|ends| ends.map(|v| view.place(mesh.points[v as usize])))
-    {
+    let within = |ends: &[DVec2; 2]| ends.iter().all(|&end| window.contains(end));
+    let points = |ends: [u32; 2]| ends.map(|v| mesh.points[v as usize]);
+    for ends in edges(mesh).into_iter().map(points).filter(within) {
+        let ends = ends.map(|end| view.place(end));
         let [(ax, ay), (bx, by)] = ends;
         if (ax - bx).abs().max((ay - by).abs()) >= SHORTEST_EDGE {
             area.draw(&PathElement::new(ends.to_vec(), edge))?;
         }
     }
     let line = style::stroke(INK, FINE as u32 + 1);
-    for piece in &mesh.pieces {
-        let ends = [piece.a, piece.b].map(|v| view.place(mesh.points[v as usize])).to_vec();
+    let pieces = mesh.pieces.iter().map(|piece| points([piece.a, piece.b]));
+    for ends in pieces.filter(within) {
+        let ends = ends.map(|end| view.place(end)).to_vec();
         area.draw(&PathElement::new(ends, line))?;
     }
     Ok(())
@@ -145,8 +157,7 @@ struct View {
 }
 
 impl View {
-    fn of(mesh: &Mesh, (width, height): (u32, u32)) -> Self {
-        let bounds = Rect::around(mesh.points.iter().copied());
+    fn of(bounds: Rect, (width, height): (u32, u32)) -> Self {
         let room = DVec2::new(f64::from(width), f64::from(height));
         let margin = DVec2::splat(24.0 * f64::from(FINE));
         let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));

@@ -5,6 +5,7 @@
 mod angles;
 mod bitmap;
 mod canvas;
+mod corners;
 mod dots;
 mod frontier;
 mod histograms;
@@ -20,6 +21,7 @@ mod time;
 
 pub use angles::smallest_angle;
 pub use canvas::ChartError;
+pub use corners::{side_by_side, window};
 pub use frontier::size_for_angle;
 pub use histograms::{angles_by_method, angles_by_order, angles_by_t};
 pub use mesh::{draw_mesh, draw_mesh_sheet};

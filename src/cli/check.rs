@@ -56,8 +56,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (Some(spacing), Some(t), Some(c_b)) => {
             let cell = arguments.cell(spacing, t, c_b);
             let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
-            let is_plain = meshers::is_plain(&domain, &*prepared.spacing, c_b);
-            let guarantees = entry.map_or_else(Vec::new, |entry| entry.guaranteed(&arguments.params(), is_plain));
+            let guarantees = entry.map_or_else(Vec::new, |entry| {
+                entry.guaranteed(&arguments.params(), &domain, &*prepared.spacing, c_b)
+            });
             quality::judge(&domain, &mesh, Some(&prepared.bounds(c_b, &guarantees)))
         }
         _ => quality::judge(&domain, &mesh, None),

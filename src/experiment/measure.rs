@@ -52,8 +52,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
     let triangles = run.mesh.triangles.len() as f64;
     let integral = prepared.integral.value;
     let size_ratio = triangles / integral;
-    let is_plain = meshers::is_plain(&site.domain, &*prepared.spacing, c_b);
-    let guaranteed = entry.guaranteed(&cell.params, is_plain);
+    let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*prepared.spacing, c_b);
     let bounds = prepared.bounds(c_b, &guaranteed);
     let (statistics, certificate) = quality::judge(&site.domain, &run.mesh, Some(&bounds));
     Report {

@@ -22,7 +22,8 @@ pub enum Setting {
     /// No angle under 90°, and no circles of neighbouring input vertices that meet low.
     Papers,
     /// No angle under 90°, but somewhere the circles of a segment's two vertices cover it between them and meet lower
-    /// than Lemma 6.4 would have it: possible only where c_b + t > 1, and excluded in the paper without a word.
+    /// than Lemma 6.4 would have it, or had to be held apart for it (`head_on = part`): possible only where c_b + t > 1, and
+    /// excluded in the paper without a word.
     LowOverlap,
     /// Two neighbouring segments meet at an angle under 90°, which the paper excludes.
     Acute,
@@ -32,7 +33,9 @@ pub enum Setting {
 pub fn setting(report: &Report) -> Setting {
     if is_acute(report) {
         Setting::Acute
-    } else if report.certificate.low_head_on > 0 {
+    } else if report.certificate.low_head_on > 0
+        || report.counts.get("segments_parted").is_some_and(|count| *count > 0.0)
+    {
         Setting::LowOverlap
     } else {
         Setting::Papers

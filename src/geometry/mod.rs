@@ -54,6 +54,11 @@ impl Rect {
         0.5 * (self.min + self.max)
     }
 
+    /// The largest coordinate of its points by magnitude.
+    pub fn largest_coordinate(self) -> f64 {
+        self.min.abs().max(self.max.abs()).max_element()
+    }
+
     /// Length of the diagonal; the scale tolerances are relative to.
     pub fn diagonal(self) -> f64 {
         self.size().length()

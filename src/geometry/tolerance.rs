@@ -62,7 +62,3 @@ pub const REPAIR_GRID: f64 = 1.0 / (1u64 << 32) as f64;
 /// Gradient limiting: a lower bound of f is taken this share of the largest coordinate lower. Distances and their
 /// differences are computed to a few ulp of the coordinates.
 pub const LOWER_BOUND: f64 = 16.0 * f64::EPSILON;
-
-/// Biting: a point counts as on a side of a notch up to this share of its distance from the notch's vertex; centres on
-/// segments are rounded to some ulp.
-pub const ALONG_NOTCH: f64 = 1e-12;

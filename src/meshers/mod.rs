@@ -45,7 +45,7 @@ pub struct Guarantee {
     pub claim: &'static str,
     /// Parameters and their values that it is guaranteed with, written as in [`Parameter::default`].
     pub with: &'static [(&'static str, &'static str)],
-    /// Whether only in plain cases, see [`is_plain`].
+    /// Whether only in plain cases: no angle under 90° between neighbouring segments, c_b + t ≤ 1.
     pub plain: bool,
 }
 
@@ -76,7 +76,7 @@ impl Guarantee {
 
 /// Whether neither the domain nor the request needs anything that the paper does not have: no angle under 90° between
 /// neighbouring segments, inside or outside, and c_b + t ≤ 1.
-pub fn is_plain(domain: &Domain, spacing: &dyn Spacing, c_b: f64) -> bool {
+fn is_plain(domain: &Domain, spacing: &dyn Spacing, c_b: f64) -> bool {
     domain.smallest_segment_angle_deg() >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
         && c_b + c_b * spacing.lipschitz() <= 1.0
 }
@@ -92,8 +92,15 @@ impl Entry {
         all
     }
 
-    /// The claims guaranteed with the parameters given, in a plain case ([`is_plain`]) or another.
-    pub fn guaranteed(&self, given: &Parameters, is_plain: bool) -> Vec<&'static str> {
+    /// The claims guaranteed with the parameters given, for a domain, a spacing and c_b.
+    pub fn guaranteed(
+        &self,
+        given: &Parameters,
+        domain: &Domain,
+        spacing: &dyn Spacing,
+        c_b: f64,
+    ) -> Vec<&'static str> {
+        let is_plain = is_plain(domain, spacing, c_b);
         let all = self.complete(given);
         let has = |(name, value): &(&str, &str)| all.get(*name) == Some(&parameter_value(value));
         let mut claims: Vec<&'static str> = Vec::new();

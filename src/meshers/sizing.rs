@@ -15,12 +15,10 @@ pub(super) struct Sizing<'a> {
 
 impl<'a> Sizing<'a> {
     pub fn new(domain: &Domain, spacing: &'a dyn Spacing, request: &Request) -> Self {
-        let bounds = domain.bounds();
-        let largest_coordinate = bounds.min.abs().max(bounds.max.abs()).max_element();
         Self {
             spacing,
             c_b: request.c_b,
-            smallest: tolerance::RESOLUTION * largest_coordinate,
+            smallest: tolerance::RESOLUTION * domain.bounds().largest_coordinate(),
         }
     }
 

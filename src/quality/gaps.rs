@@ -159,7 +159,7 @@ mod tests {
     use crate::domain::{Domain, gallery};
     use crate::geometry::DVec2;
     use crate::mesh::Mesh;
-    use crate::meshers::biting::{Biting, Order};
+    use crate::meshers::biting::{Biting, Corners, HeadOn, Order};
     use crate::meshers::{Budget, Mesher, Request, Trace};
     use crate::quality::{Bounds, judge};
     use crate::spacing::{self, Options, Spacing};
@@ -224,7 +224,8 @@ mod tests {
             for order in [Order::Largest, Order::Fifo] {
                 let mesh = Biting {
                     order,
-                    ..Biting::default()
+                    corners: Corners::Bite,
+                    head_on: HeadOn::Leave,
                 }
                 .mesh(&domain, spacing, &request, &mut Trace::default())
                 .expect("a mesh");

@@ -15,6 +15,7 @@ pub(super) enum Section {
     Angle,
     Size,
     Fewest,
+    Corners,
     Orders,
     Time,
     Rivals,

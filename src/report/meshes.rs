@@ -39,18 +39,13 @@ const SHEET_TRIANGLES: f64 = 900.0;
 pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartError> {
     let store = Store::new(None, false);
     let mut pictures: Vec<Picture> = meshers(&store, rows, folder)?.into_iter().collect();
+    pictures.extend(super::corners::draw(&store, rows, folder)?);
     let mut sheet: Vec<(String, Mesh)> = Vec::new();
     for (row, report) in chosen(rows) {
         let Some(mesh) = made_again(&store, row, report) else {
             continue;
         };
-        let name: String = row
-            .cell
-            .domain
-            .chars()
-            .map(|c| if c.is_alphanumeric() { c } else { '-' })
-            .collect();
-        let name = format!("mesh-{name}");
+        let name = format!("mesh-{}", file_name(&row.cell.domain));
         draw_mesh(&mesh, &folder.join(format!("{name}.png")))?;
         pictures.push(Picture {
             name,
@@ -66,6 +61,14 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartErr
         draw_mesh_sheet(&titled, &folder.join("four-meshes.png"))?;
     }
     Ok(pictures)
+}
+
+/// A domain's name as part of a file's.
+pub(super) fn file_name(domain: &str) -> String {
+    domain
+        .chars()
+        .map(|c| if c.is_alphanumeric() { c } else { '-' })
+        .collect()
 }
 
 /// One measured row of each domain: of the grid's first spacing, nearest to what is to be shown.
@@ -138,7 +141,7 @@ fn told(report: &Report) -> String {
 }
 
 /// The mesh of a row, if its domain, spacing and mesher are still there and it comes out the same.
-fn made_again(store: &Store, row: &Row, report: &Report) -> Option<Mesh> {
+pub(super) fn made_again(store: &Store, row: &Row, report: &Report) -> Option<Mesh> {
     let prepared = store.prepare_for_t(&row.cell).ok()?;
     let (_, mesher) = mesher(&row.cell).ok()?;
     let request = Request {

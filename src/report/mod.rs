@@ -6,6 +6,7 @@
 mod angles;
 mod battery;
 mod claims;
+mod corners;
 mod duels;
 mod figures;
 mod findings;

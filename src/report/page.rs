@@ -2,6 +2,7 @@
 
 use super::angles;
 use super::claims;
+use super::corners;
 use super::duels;
 use super::figures::{Chart, Section};
 use super::findings::{grids, of_group, spread, tally};
@@ -40,6 +41,7 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
             sections::fewest_triangles(rows),
             Section::Fewest,
         ),
+        ("Corners", corners::corners(rows), Section::Corners),
         ("Orders of bites", sections::orders(rows), Section::Orders),
         ("Time of biting, step by step", sections::time(rows), Section::Time),
         ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
@@ -93,6 +95,7 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
         angles::hypothesis_finding(rows),
         sections::size_finding(rows),
         sections::fewest_finding(rows),
+        corners::corner_finding(rows),
         sections::order_finding(rows),
         sections::certificate_finding(rows),
         sections::time_finding(rows),

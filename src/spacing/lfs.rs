@@ -75,8 +75,7 @@ impl Lfs {
                 y: lowest.1.y,
             });
         }
-        let largest_coordinate = bounds.min.abs().max(bounds.max.abs()).max_element();
-        if lowest.0 < RESOLUTION * largest_coordinate {
+        if lowest.0 < RESOLUTION * bounds.largest_coordinate() {
             return Err(SpacingError::Unresolved {
                 value: lowest.0,
                 x: lowest.1.x,

@@ -111,7 +111,8 @@ fn attempt(case: &Case) -> Result<Trial, (Verdict, String)> {
         MeshError::Budget { .. } => (Verdict::Stopped, error.to_string()),
         MeshError::Spacing { .. } | MeshError::Declined(_) | MeshError::Triangulation(_) => declined(error.to_string()),
     })?;
-    let broken = broken(&prepared, case, &entry.guaranteed(&cell.params), &run.mesh);
+    let guaranteed = entry.guaranteed(&cell.params, &prepared.site.domain, &*prepared.spacing, cell.c_b);
+    let broken = broken(&prepared, case, &guaranteed, &run.mesh);
     Ok(Trial {
         verdict: if broken.is_none() {
             Verdict::Certified

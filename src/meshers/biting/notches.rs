@@ -15,7 +15,7 @@ use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
 use crate::geometry::near::Disc;
 use crate::geometry::segments::{SegmentIndex, closest_on_segment};
-use crate::geometry::tolerance::{ALONG_NOTCH, NO_ANGLE, RIGHT_ANGLE_DEG};
+use crate::geometry::tolerance::{NO_ANGLE, RIGHT_ANGLE_DEG, SAME_VERTEX_ULPS};
 
 /// An angle under 90° that opens to the outside, counter-clockwise from one ray to the other.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +32,8 @@ pub(super) struct Notches {
     notches: Vec<Notch>,
     /// Their segments: of notch k the ones at 2k and 2k + 1.
     index: SegmentIndex,
+    /// A point that far off a side lies on it: centres on segments are rounded.
+    slack: f64,
 }
 
 impl Notches {
@@ -52,6 +54,7 @@ impl Notches {
         Self {
             index: SegmentIndex::new(sides),
             notches,
+            slack: SAME_VERTEX_ULPS * f64::EPSILON * domain.bounds().largest_coordinate(),
         }
     }
 
@@ -69,9 +72,9 @@ impl Notches {
     /// Whether a notch stands between the points `x` and `y`.
     pub fn part(&self, x: DVec2, y: DVec2) -> bool {
         let mut parted = false;
-        self.index.within(x, x.distance(y), |side, _| {
+        self.index.within(x, x.distance(y) + self.slack, |side, _| {
             let notch = &self.notches[side / 2];
-            parted |= side % 2 == 0 && (notch.parts(x, y) || notch.parts(y, x));
+            parted |= side % 2 == 0 && (notch.parts(x, y, self.slack) || notch.parts(y, x, self.slack));
         });
         parted
     }
@@ -87,14 +90,14 @@ impl Notch {
     }
 
     /// Whether the way from `x` to `y` crosses the first side and then the second; an end of it may lie on a side.
-    fn parts(&self, x: DVec2, y: DVec2) -> bool {
+    fn parts(&self, x: DVec2, y: DVec2, slack: f64) -> bool {
         let ([first, second], [from, to]) = (self.rays, [x - self.vertex, y - self.vertex]);
         let turn = from.perp_dot(to);
         // Both rays lie between the two ends, seen from the vertex.
-        let ends_first = from.perp_dot(first) >= -ALONG_NOTCH * from.length() && from.perp_dot(second) > 0.0;
-        let ends_second = second.perp_dot(to) >= -ALONG_NOTCH * to.length() && first.perp_dot(to) > 0.0;
+        let ends_first = from.perp_dot(first) >= -slack && from.perp_dot(second) > 0.0;
+        let ends_second = second.perp_dot(to) >= -slack && first.perp_dot(to) > 0.0;
         let way = to - from;
-        let crosses = |ray: DVec2, length: f64| turn <= ray.perp_dot(way) * length * (1.0 + ALONG_NOTCH);
+        let crosses = |ray: DVec2, length: f64| turn <= ray.perp_dot(way) * (length + slack);
         turn > 0.0 && ends_first && ends_second && crosses(first, self.lengths[0]) && crosses(second, self.lengths[1])
     }
 }

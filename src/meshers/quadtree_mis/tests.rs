@@ -66,7 +66,7 @@ fn certify(mesher: &QuadtreeMis, domain: &Domain, spacing: &dyn Spacing, lfs_cap
         lfs_cap,
         integral: None,
         integral_error: 0.0,
-        guaranteed: &ENTRY.guaranteed(&parameters, true),
+        guaranteed: &ENTRY.guaranteed(&parameters, domain, spacing, REQUEST.c_b),
     };
     judge(domain, &mesh, Some(&bounds)).1
 }
