@@ -112,7 +112,8 @@ impl Cuts {
         let mut plan = Plan::new(biting.corners, domain, spacing, request)?;
         loop {
             let capped = Capped::new(spacing, plan.c_b, plan.t, plan.caps());
-            let is_settled = plan.shrink(&capped)? & (biting.head_on == HeadOn::Leave || plan.part(&capped));
+            let sizing = Sizing::new(domain, &capped, request);
+            let is_settled = plan.shrink(&sizing)? & (biting.head_on == HeadOn::Leave || plan.part(&sizing)?);
             if is_settled {
                 return Ok((plan.cuts(), capped));
             }
@@ -233,16 +234,17 @@ impl<'a> Plan<'a> {
         [segment.a, segment.b].map(|v| self.domain.vertices()[v] + self.domain.away(s, v).0 * self.distances[v])
     }
 
-    /// Makes cuts smaller whose circles `capped` holds below what their edges need; says whether there were none.
-    fn shrink(&mut self, capped: &Capped) -> Result<bool, MeshError> {
+    /// Makes cuts smaller whose circles are held below what their edges need; says whether there were none.
+    fn shrink(&mut self, capped: &Sizing) -> Result<bool, MeshError> {
         let mut is_settled = true;
         for (v, fan) in &self.fans {
             let (vertex, distance) = (self.domain.vertices()[*v], self.distances[*v]);
-            let fits = |edge: &Edge| {
-                let radii = edge.ends.map(|way| self.c_b * capped.at(vertex + way * distance));
-                radii[0].min(radii[1]) / (edge.least_radius(self.t) * distance)
-            };
-            let fit = fan.edges.iter().map(fits).fold(f64::INFINITY, f64::min);
+            let mut fit = f64::INFINITY;
+            for edge in &fan.edges {
+                for way in edge.ends {
+                    fit = fit.min(capped.at(vertex + way * distance)? / (edge.least_radius(self.t) * distance));
+                }
+            }
             if fit < 1.0 {
                 is_settled = false;
                 self.distances[*v] *= fit.min(SHRINK);
@@ -257,12 +259,12 @@ impl<'a> Plan<'a> {
 
     /// Marks segments that the circles of their two ends cover between them, meeting lower than (9); says whether there
     /// were none.
-    fn part(&mut self, capped: &Capped) -> bool {
+    fn part(&mut self, capped: &Sizing) -> Result<bool, MeshError> {
         let bound = least_meeting_height(self.t.min(1.0));
         let mut is_settled = true;
         for s in (0..self.parted.len()).filter(|&s| !self.parted[s]).collect::<Vec<_>>() {
             let [a, b] = self.ends(s);
-            let radii = [a, b].map(|end| self.c_b * capped.at(end));
+            let radii = [capped.at(a)?, capped.at(b)?];
             let between = a.distance(b);
             let is_low = meeting_height(between, radii[0], radii[1]) < bound * radii[0].min(radii[1]);
             if radii[0] + radii[1] > between && is_low {
@@ -270,7 +272,7 @@ impl<'a> Plan<'a> {
                 is_settled = false;
             }
         }
-        is_settled
+        Ok(is_settled)
     }
 
     fn cuts(&self) -> Cuts {
