@@ -4,13 +4,17 @@ use biting::domain::{Domain, Pslg, repair};
 use biting::geometry::DVec2;
 use biting::meshers::{Budget, MESHERS, Parameters, Request, Trace};
 use biting::quality::{Bounds, judge};
-use biting::spacing::{self, Options, Prepared};
+use biting::spacing::{self, Options, Prepared, Spacing};
 
 /// Pairs (t, c_b): the quality of the theorem, the middle, and the coarsest.
 const PAIRS: [(f64, f64); 3] = [(0.25, 0.25), (0.3, 0.6), (0.25, 1.0)];
 const SPECS: [&str; 3] = ["lfs", "uniform:0.4", "expr:0.05 + 0.2*(x*x + y*y)"];
 /// Inputs that would take more are passed over: many small ones find more than few large ones.
-const MOST_TRIANGLES: f64 = 4000.0;
+const MOST_TRIANGLES: f64 = 150.0;
+/// So are inputs with features closer than this: it takes the spacing seconds to tell that their triangles are too many.
+const SMALLEST_FEATURE: f64 = 1.0 / 25.0;
+/// The index of gradient limiting grows with 1 / (1 − k)²: at the default of 0.9 it takes most of the time.
+const LIMIT_FACTOR: f64 = 0.5;
 
 /// The numbers that the input still holds.
 struct Bytes<'a>(std::slice::Iter<'a, u8>);
@@ -55,10 +59,17 @@ pub fn pslg(data: &[u8]) {
     let Ok(domain) = Domain::new(pslg.clone()).or_else(|_| Domain::new(repair(pslg).0)) else {
         return;
     };
-    let Ok(prepared) = spacing::build(spec, &domain, &Options::new(t, c_b)) else {
+    if smallest_feature(&domain) < SMALLEST_FEATURE {
+        return;
+    }
+    let options = Options {
+        limit_factor: LIMIT_FACTOR,
+        ..Options::new(t, c_b)
+    };
+    let Ok(prepared) = spacing::build(spec, &domain, &options) else {
         return;
     };
-    let Ok(integral) = spacing::integrate(&*prepared.function, &domain, 0.05) else {
+    let Ok(integral) = spacing::integrate(&*prepared.function, &domain, 0.2) else {
         return;
     };
     if spacing::estimate_triangles(integral.value, c_b) > MOST_TRIANGLES {
@@ -78,6 +89,14 @@ pub fn pslg(data: &[u8]) {
         Ok(mesh) => hold(&domain, &mesh, &prepared, c_b, entry),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
+}
+
+/// The least lfs at a vertex.
+fn smallest_feature(domain: &Domain) -> f64 {
+    spacing::lfs_of(domain).map_or(0.0, |lfs| {
+        let at_vertices = domain.vertices().iter().map(|x| lfs.at(*x));
+        at_vertices.fold(f64::INFINITY, f64::min)
+    })
 }
 
 fn hold(domain: &Domain, mesh: &biting::mesh::Mesh, prepared: &Prepared, c_b: f64, entry: &biting::meshers::Entry) {

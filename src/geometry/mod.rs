@@ -88,3 +88,58 @@ impl Rect {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+    #[test]
+    fn turns_are_counter_clockwise_and_never_zero() {
+        let at = |degrees: f64| 2.0 * DVec2::from_angle(degrees.to_radians());
+        for (from, to) in [(10.0, 100.0), (350.0, 80.0), (-170.0, -80.0)] {
+            assert!((turn(at(from), at(to)) - FRAC_PI_2).abs() < 1e-12);
+            assert!((turn(at(to), at(from)) - 3.0 * FRAC_PI_2).abs() < 1e-12);
+        }
+        assert_eq!(turn(DVec2::X, DVec2::X), TAU);
+        assert_eq!(turn(DVec2::X, -DVec2::X), PI);
+    }
+
+    #[test]
+    fn a_box_measures_itself() {
+        let points = [DVec2::new(1.0, 6.0), DVec2::new(4.0, 2.0), DVec2::new(2.0, 3.0)];
+        let bounds = Rect::around(points);
+        assert_eq!((bounds.min, bounds.max), (DVec2::new(1.0, 2.0), DVec2::new(4.0, 6.0)));
+        assert_eq!(bounds.size(), DVec2::new(3.0, 4.0));
+        assert_eq!(bounds.centre(), DVec2::new(2.5, 4.0));
+        assert_eq!(bounds.diagonal(), 5.0);
+        let quarters = bounds.quarters();
+        assert_eq!(quarters.map(|quarter| quarter.size()), [DVec2::new(1.5, 2.0); 4]);
+        let corners = quarters.map(|quarter| quarter.min);
+        assert_eq!(
+            corners,
+            [(1.0, 2.0), (2.5, 2.0), (1.0, 4.0), (2.5, 4.0)].map(DVec2::from)
+        );
+    }
+
+    #[test]
+    fn distances_to_a_box_are_to_its_nearest_point() {
+        let bounds = Rect {
+            min: DVec2::new(1.0, 2.0),
+            max: DVec2::new(4.0, 6.0),
+        };
+        for (x, y, distance) in [
+            (2.0, 3.0, 0.0),
+            (1.0, 6.0, 0.0),
+            (0.0, 3.0, 1.0),
+            (6.0, 3.0, 2.0),
+            (2.0, 1.5, 0.5),
+            (2.0, 9.0, 3.0),
+            (7.0, 10.0, 5.0),
+            (-2.0, -2.0, 5.0),
+        ] {
+            assert_eq!(bounds.distance(DVec2::new(x, y)), distance, "({x}, {y})");
+            assert_eq!(bounds.contains(DVec2::new(x, y)), distance == 0.0, "({x}, {y})");
+        }
+    }
+}

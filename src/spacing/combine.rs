@@ -93,3 +93,62 @@ impl Spacing for Scaled {
         self.factor * self.inner.upper_bound(cell)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Expression, Uniform};
+    use super::*;
+
+    const BOX: Rect = Rect {
+        min: DVec2::ZERO,
+        max: DVec2::ONE,
+    };
+
+    fn expression(text: &str) -> Arc<dyn Spacing> {
+        Arc::new(Expression::new(text, BOX).unwrap())
+    }
+
+    #[test]
+    fn a_scaled_spacing_is_a_multiple_in_everything() {
+        let inner = expression("1 + x");
+        let scaled = Scaled::new(0.25, inner.clone());
+        assert_eq!(scaled.at(DVec2::new(0.5, 0.0)), 0.375);
+        assert_eq!(scaled.lipschitz(), 0.25 * inner.lipschitz());
+        assert_eq!(scaled.lower_bound(BOX), 0.25 * inner.lower_bound(BOX));
+        assert_eq!(scaled.upper_bound(BOX), 0.25 * inner.upper_bound(BOX));
+        assert!(scaled.lower_bound(BOX) > 0.24 && scaled.upper_bound(BOX) < 0.51);
+    }
+
+    #[test]
+    fn the_smallest_of_several_has_the_smallest_bounds_and_the_largest_constant() {
+        let parts = [expression("0.5 + x"), expression("0.5 + 2*y")];
+        let min = Min::of(parts.to_vec(), BOX);
+        assert_eq!(min.at(DVec2::new(0.25, 0.5)), 0.75);
+        assert_eq!(min.at(DVec2::new(0.75, 0.25)), 1.0);
+        assert_eq!(min.lipschitz(), parts[1].lipschitz());
+        let cell = Rect {
+            min: DVec2::new(0.5, 0.0),
+            max: DVec2::new(0.75, 0.25),
+        };
+        assert_eq!(min.lower_bound(cell), parts[1].lower_bound(cell));
+        assert_eq!(min.upper_bound(cell), parts[1].upper_bound(cell));
+    }
+
+    #[test]
+    fn parts_that_never_decide_are_left_out_in_either_order() {
+        let steep = expression("2 + x");
+        let flat: Arc<dyn Spacing> = Arc::new(Uniform(1.0));
+        for parts in [[steep.clone(), flat.clone()], [flat.clone(), steep]] {
+            assert_eq!(Min::of(parts.to_vec(), BOX).lipschitz(), 0.0);
+        }
+        // Where they only touch, the earlier stays.
+        let equal: Vec<Arc<dyn Spacing>> = vec![flat, Arc::new(Uniform(1.0)), expression("1 + x")];
+        assert_eq!(Min::of(equal, BOX).at(DVec2::X), 1.0);
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_not_hidden() {
+        assert!(smaller(f64::NAN, 1.0).is_nan() && smaller(1.0, f64::NAN).is_nan());
+        assert_eq!((smaller(1.0, 2.0), smaller(2.0, 1.0)), (1.0, 1.0));
+    }
+}

@@ -240,6 +240,14 @@ mod tests {
         assert_eq!(Expression::new("1/(x-0.5)^2", BOX).unwrap().lipschitz(), f64::INFINITY);
     }
 
+    /// Found by fuzzing: at whole y a power of a negative number has a value, which the bounds took for positive.
+    #[test]
+    fn powers_of_negative_numbers_prove_nothing() {
+        let f = Expression::new("tan(11)^-y+96", BOX).unwrap();
+        assert!(f.lower_bound(BOX) <= f.at(DVec2::ONE) && f.at(DVec2::ONE) < 96.0);
+        assert_eq!(f.lipschitz(), f64::INFINITY);
+    }
+
     #[test]
     fn signs_and_powers_follow_mathematics() {
         let at = |text: &str| Expression::new(text, BOX).unwrap().at(DVec2::new(0.5, 0.25));

@@ -214,6 +214,14 @@ impl Interval {
         Self::new(bounds.low.max(0.0), bounds.high)
     }
 
+    /// a^b for a power that varies; known for a ≥ 0 only, as in reals.
+    pub fn power_varying(self, exponent: Self) -> Self {
+        if self.low < 0.0 {
+            return Self::WHOLE;
+        }
+        (exponent * self.ln()).exp()
+    }
+
     /// √(a² + b²).
     pub fn hypot(self, other: Self) -> Self {
         (self.square() + other.square()).sqrt()

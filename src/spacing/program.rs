@@ -307,7 +307,7 @@ impl Number for Interval {
             Binary::Subtract => self - other,
             Binary::Multiply => self * other,
             Binary::Divide => self / other,
-            Binary::Power => (other * self.ln()).exp(),
+            Binary::Power => self.power_varying(other),
             Binary::Min => self.min(other),
             Binary::Max => self.max(other),
             Binary::Hypot => self.hypot(other),

@@ -39,6 +39,17 @@ fn json_keeps_everything() {
     assert_eq!(round_trip("m.json"), sample());
 }
 
+/// Found by fuzzing: read to the nearest double only with serde_json's `float_roundtrip`.
+#[test]
+fn json_keeps_the_last_bit() {
+    let mut mesh = sample();
+    mesh.points[4].y = 1.3574372924521165;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("m.json");
+    write(&mesh, &path).unwrap();
+    assert_eq!(read(&path).unwrap().points, mesh.points);
+}
+
 #[test]
 fn node_and_vtu_keep_markers_and_regions() {
     let bare = Mesh {
