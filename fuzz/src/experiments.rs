@@ -3,6 +3,7 @@
 use crate::scratch;
 use biting::experiment::journal::{Journal, Line, read_rows};
 use biting::experiment::plan::Plan;
+use biting::experiment::record::Row;
 
 /// A plan: its cells, whole and quick.
 pub fn plan(data: &[u8]) {
@@ -19,8 +20,8 @@ pub fn plan(data: &[u8]) {
 /// A file of rows: those that are read can be written, and a journal opens what `read_rows` reads.
 pub fn rows(data: &[u8]) {
     let path = scratch::put("rows.jsonl", data);
-    let rows = read_rows(&path);
-    assert_eq!(rows.is_ok(), Journal::open(&path).is_ok());
+    let rows: Result<Vec<Row>, _> = read_rows(&path);
+    assert_eq!(rows.is_ok(), Journal::<Row>::open(&path).is_ok());
     for row in rows.unwrap_or_default() {
         Line::new(row).expect("a row that was read can be written");
     }
