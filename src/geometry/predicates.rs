@@ -113,9 +113,29 @@ mod tests {
             (p(3.0, 0.0), p(4.0, 0.0), Meeting::Apart),
             (p(0.0, 1.0), p(2.0, 1.0), Meeting::Apart),
             (p(3.0, -1.0), p(3.0, 1.0), Meeting::Apart),
+            (p(2.0, 1.0), p(2.0, 2.0), Meeting::Apart),
+            (p(0.5, 0.0), p(1.5, 0.0), Meeting::Overlap),
+            // Points.
+            (p(1.0, 1.0), p(1.0, 1.0), Meeting::Apart),
+            (p(2.0, 1.0), p(2.0, 1.0), Meeting::Apart),
+            (p(3.0, 0.0), p(3.0, 0.0), Meeting::Apart),
+            (p(1.0, 0.0), p(1.0, 0.0), Meeting::Touch),
         ] {
-            assert_eq!(segments_meet(base.0, base.1, c, d), expected, "{c} {d}");
-            assert_eq!(segments_meet(c, d, base.1, base.0), expected, "swapped: {c} {d}");
+            // Mirrored, turned, small and far from the origin they meet alike.
+            let moves: [fn(DVec2) -> DVec2; 6] = [
+                |x| x,
+                |x| -x,
+                |x| DVec2::new(x.x, -x.y),
+                |x| x.perp(),
+                |x| x / 16.0 + 5.0,
+                |x| x.perp() / 16.0 + 5.0,
+            ];
+            for (k, place) in moves.iter().enumerate() {
+                let [a, b, c, d] = [base.0, base.1, c, d].map(place);
+                for [a, b, c, d] in [[a, b, c, d], [a, b, d, c], [c, d, b, a], [d, c, b, a]] {
+                    assert_eq!(segments_meet(a, b, c, d), expected, "move {k}: {a} {b} {c} {d}");
+                }
+            }
         }
     }
 }

@@ -196,17 +196,18 @@ mod tests {
             removed in prop::collection::vec(any::<bool>(), 150),
             corner in (-1.0..1.0f64, -1.0..1.0f64),
             size in -10.0..1.0f64,
+            scale in prop::sample::select(vec![1.0, 1024.0, 1.0 / 1024.0]),
         ) {
             let mut grid = SegmentGrid::default();
             let ends: Vec<[DVec2; 2]> = segments.iter().map(|&(x, y, log, angle)| {
                 let start = DVec2::new(x, y);
-                [start, start + log.exp2() * DVec2::from_angle(angle)]
+                [scale * start, scale * (start + log.exp2() * DVec2::from_angle(angle))]
             }).collect();
             for (id, [a, b]) in ends.iter().enumerate() {
                 grid.insert(id as u32, a.midpoint(*b), a.distance(*b));
             }
             (0..ends.len()).filter(|&id| removed[id]).for_each(|id| grid.remove(id as u32));
-            let bounds = Rect { min: corner.into(), max: DVec2::from(corner) + size.exp2() };
+            let bounds = Rect { min: scale * DVec2::from(corner), max: scale * (DVec2::from(corner) + size.exp2()) };
             let mut found = vec![0; ends.len()];
             grid.near(bounds, |id| found[id as usize] += 1);
             for id in 0..ends.len() {

@@ -54,6 +54,7 @@ proptest! {
             if next.1 < best.1 { next } else { best }
         });
         prop_assert_eq!(index.nearest_where(x, accept), expected);
+        prop_assert_eq!(index.nearest(x), index.nearest_where(x, |_| true));
         let mut found = Vec::new();
         index.within(x, 3.0, |s, d| found.push((s, d)));
         found.sort_by_key(|&(s, _)| s);
@@ -120,5 +121,32 @@ fn the_order_of_segments_seen_is_exact() {
         };
         assert!(segments[s].contains(&left));
         assert_eq!(on_left, segments[s][1] == top);
+    }
+}
+
+#[test]
+fn the_closest_point_is_an_end_or_the_foot() {
+    let ends = [DVec2::new(1.0, 1.0), DVec2::new(5.0, 3.0)];
+    for ((x, y), closest) in [
+        ((0.0, 0.0), (1.0, 1.0)),
+        ((2.0, -1.0), (1.0, 1.0)),
+        ((2.0, 4.0), (3.0, 2.0)),
+        ((5.0, -2.0), (3.0, 2.0)),
+        ((4.5, 1.5), (4.0, 2.5)),
+        ((4.0, 5.0), (5.0, 3.0)),
+        ((9.0, 4.0), (5.0, 3.0)),
+    ] {
+        let found = closest_on_segment(ends, DVec2::new(x, y));
+        assert!(found.distance(closest.into()) < 1e-15, "({x}, {y}): {found}");
+        assert!(closest_on_segment([ends[1], ends[0]], DVec2::new(x, y)).distance(closest.into()) < 1e-15);
+    }
+    assert_eq!(closest_on_segment([ends[0]; 2], DVec2::ZERO), ends[0]);
+}
+
+#[test]
+fn an_index_counts_its_segments() {
+    for count in [0, 1, 9] {
+        let index = SegmentIndex::new(vec![[DVec2::ZERO, DVec2::X]; count]);
+        assert_eq!((index.len(), index.is_empty()), (count, count == 0));
     }
 }
