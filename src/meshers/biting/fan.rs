@@ -68,93 +68,72 @@ impl Fan {
     /// Of vertex `v`, for a spacing that grows with `t`.
     pub fn new(domain: &Domain, v: usize, t: f64) -> Self {
         let mut fan = Self::default();
-        for run in runs(domain.wedges(v)) {
-            let angles: Vec<f64> = run.wedges.iter().map(|wedge| wedge.angle).collect();
-            let smallest = angles.iter().copied().fold(f64::INFINITY, f64::min);
-            for (wedge, parts) in run.wedges.iter().zip(divide(&angles, run.is_closed, t)) {
-                fan.narrowed += usize::from(parts.iter().any(|part| *part < smallest * (1.0 - 1e-9)));
-                let [from, to] = [wedge.from, wedge.to].map(|s| domain.away(s, v).0);
-                let (mut start, mut turned) = (from, 0.0);
-                for (k, &angle) in parts.iter().enumerate() {
-                    turned += angle;
-                    let end = if k + 1 == parts.len() {
-                        to
-                    } else {
-                        DVec2::from_angle(turned).rotate(from)
-                    };
-                    fan.edges.push(Edge {
-                        ends: [start, end],
-                        angle,
-                    });
-                    if k + 1 < parts.len() {
-                        fan.between.push(end);
-                    }
-                    start = end;
+        let wedges = domain.wedges(v);
+        let inside = wedges.iter().filter(|wedge| wedge.inside);
+        let smallest = inside.map(|wedge| wedge.angle).fold(f64::INFINITY, f64::min);
+        for (wedge, parts) in wedges.iter().zip(divide(wedges, t)) {
+            fan.narrowed += usize::from(parts.iter().any(|part| *part < smallest * (1.0 - 1e-9)));
+            let [from, to] = [wedge.from, wedge.to].map(|s| domain.away(s, v).0);
+            let (mut start, mut turned) = (from, 0.0);
+            for (k, &angle) in parts.iter().enumerate() {
+                turned += angle;
+                let is_last = k + 1 == parts.len();
+                let end = if is_last {
+                    to
+                } else {
+                    DVec2::from_angle(turned).rotate(from)
+                };
+                fan.edges.push(Edge {
+                    ends: [start, end],
+                    angle,
+                });
+                if !is_last {
+                    fan.between.push(end);
                 }
+                start = end;
             }
         }
         fan
     }
 }
 
-/// Wedges inside the domain, each beside the next.
-struct Run {
-    wedges: Vec<Wedge>,
-    /// Whether the last is beside the first.
-    is_closed: bool,
-}
-
-fn runs(wedges: &[Wedge]) -> Vec<Run> {
-    let Some(outside) = wedges.iter().position(|wedge| !wedge.inside) else {
-        return vec![Run {
-            wedges: wedges.to_vec(),
-            is_closed: wedges.len() > 1,
-        }];
-    };
-    let mut turned = wedges.to_vec();
-    turned.rotate_left(outside);
-    let runs = turned.split(|wedge| !wedge.inside).filter(|run| !run.is_empty());
-    runs.map(|run| Run {
-        wedges: run.to_vec(),
-        is_closed: false,
-    })
-    .collect()
-}
-
-/// The parts of each angle, counter-clockwise.
-fn divide(angles: &[f64], is_closed: bool, t: f64) -> Vec<Vec<f64>> {
-    let sizes: Vec<Size> = sizes(angles, is_closed, GROWTH * t.min(MOST_T));
-    let mut counts: Vec<usize> = sizes
+/// The parts of each wedge around a vertex, counter-clockwise; none of those outside.
+fn divide(wedges: &[Wedge], t: f64) -> Vec<Vec<f64>> {
+    let sizes = sizes(wedges, GROWTH * t.min(MOST_T));
+    let whole = |size: &Size| size.total().round().max(1.0) as usize;
+    let counts = wedges
         .iter()
-        .map(|size| size.total().round().max(1.0) as usize)
-        .collect();
-    for _ in 0..ROUNDS {
-        let parts: Vec<Vec<f64>> = sizes
+        .zip(&sizes)
+        .map(|(wedge, size)| if wedge.inside { whole(size) } else { 0 });
+    let mut counts: Vec<usize> = counts.collect();
+    let all_parts = |counts: &[usize]| {
+        sizes
             .iter()
-            .zip(&counts)
+            .zip(counts)
             .map(|(size, count)| size.parts(*count))
-            .collect();
-        let all: Vec<(usize, f64)> = parts
-            .iter()
-            .enumerate()
-            .flat_map(|(k, parts)| parts.iter().map(move |part| (k, *part)))
-            .collect();
-        let next = |k: usize| (k + 1 < all.len() || is_closed).then(|| all[(k + 1) % all.len()]);
-        let misfit = (0..all.len()).find_map(|k| {
-            let (one, other) = (all[k], next(k)?);
-            let (narrow, wide) = if one.1 < other.1 { (one, other) } else { (other, one) };
-            (!fit(narrow.1, wide.1, t)).then_some(wide.0)
-        });
-        match misfit {
+            .collect()
+    };
+    for _ in 0..ROUNDS {
+        let parts: Vec<Vec<f64>> = all_parts(&counts);
+        match misfit(wedges, &parts, t) {
             Some(wedge) => counts[wedge] += 1,
             None => return parts,
         }
     }
-    sizes
-        .iter()
-        .zip(&counts)
-        .map(|(size, count)| size.parts(*count))
-        .collect()
+    all_parts(&counts)
+}
+
+/// A wedge with a part too wide for the one beside it.
+fn misfit(wedges: &[Wedge], parts: &[Vec<f64>], t: f64) -> Option<usize> {
+    let each = |k: usize| parts[k].iter().map(move |part| wedges[k].inside.then_some((k, *part)));
+    // Where a wedge lies outside, the parts before and after it share no end.
+    let outside = |k: usize| (!wedges[k].inside).then_some(None);
+    let all: Vec<Option<(usize, f64)>> = (0..wedges.len()).flat_map(|k| each(k).chain(outside(k))).collect();
+    (0..all.len()).find_map(|k| {
+        let (one, other) = (all[k]?, all[(k + 1) % all.len()]?);
+        let (narrow, wide) = if one.1 < other.1 { (one, other) } else { (other, one) };
+        (!fit(narrow.1, wide.1, t)).then_some(wide.0)
+    })
 }
 
 /// Whether edges of these angles can share an end: its circle must not hold the ends of the one and suffice for the other.
@@ -175,28 +154,24 @@ struct Size {
     growth: f64,
 }
 
-/// What each angle may have for parts, growing away from the narrow ones.
-fn sizes(angles: &[f64], is_closed: bool, growth: f64) -> Vec<Size> {
-    let most = |angle: f64| {
-        if angle < FRAC_PI_2 {
-            angle
-        } else {
-            angle / (angle / WIDEST_PART).ceil()
-        }
+/// What each wedge may have for parts, growing away from the narrow ones. Growth goes on through wedges outside, since
+/// circles grow no faster across them.
+fn sizes(wedges: &[Wedge], growth: f64) -> Vec<Size> {
+    let most = |wedge: &Wedge| match wedge.angle {
+        _ if !wedge.inside => f64::INFINITY,
+        angle if angle < FRAC_PI_2 => angle,
+        angle => angle / (angle / WIDEST_PART).ceil(),
     };
-    let mut sizes: Vec<Size> = angles
-        .iter()
-        .map(|&angle| Size {
-            angle,
-            most: most(angle),
-            ends: [f64::INFINITY; 2],
-            growth,
-        })
-        .collect();
-    let count = angles.len();
-    let laps = if is_closed { 2 } else { 1 };
-    let mut reach = [f64::INFINITY; 2];
-    for k in 0..laps * count {
+    let size = |wedge: &Wedge| Size {
+        angle: wedge.angle,
+        most: most(wedge),
+        ends: [f64::INFINITY; 2],
+        growth,
+    };
+    let mut sizes: Vec<Size> = wedges.iter().map(size).collect();
+    let (count, mut reach) = (wedges.len(), [f64::INFINITY; 2]);
+    // Twice around, so that every wedge is reached from every other.
+    for k in 0..2 * count {
         for (end, at) in [(0, k % count), (1, count - 1 - k % count)] {
             let size = &mut sizes[at];
             size.ends[end] = size.ends[end].min(reach[end]);
@@ -225,6 +200,9 @@ impl Size {
 
     /// That many parts of equal weight.
     fn parts(&self, count: usize) -> Vec<f64> {
+        if count == 0 {
+            return Vec::new();
+        }
         let (step, share) = (self.angle / STEPS as f64, self.total() / count as f64);
         let (mut parts, mut weight, mut placed) = (Vec::with_capacity(count), 0.0, 0.0);
         for (k, added) in self.weights().enumerate() {
@@ -245,14 +223,28 @@ impl Size {
 mod tests {
     use super::*;
 
-    fn parts(degrees: &[f64], is_closed: bool) -> Vec<Vec<f64>> {
-        let angles: Vec<f64> = degrees.iter().map(|angle| angle.to_radians()).collect();
-        divide(&angles, is_closed, 0.25)
+    /// The parts of angles inside, what is left of 360° being outside.
+    fn parts(degrees: &[f64]) -> Vec<Vec<f64>> {
+        let wedge = |degrees: f64, inside: bool| Wedge {
+            from: 0,
+            to: 1,
+            angle: degrees.to_radians(),
+            face: 0,
+            inside,
+        };
+        let mut wedges: Vec<Wedge> = degrees.iter().map(|&degrees| wedge(degrees, true)).collect();
+        let left = 360.0 - degrees.iter().sum::<f64>();
+        if left > 0.0 {
+            wedges.push(wedge(left, false));
+        }
+        let mut parts = divide(&wedges, 0.25);
+        parts.truncate(degrees.len());
+        parts
     }
 
     #[test]
     fn angles_that_fit_stay_whole() {
-        let whole = |degrees: &[f64]| parts(degrees, false).iter().all(|parts| parts.len() == 1);
+        let whole = |degrees: &[f64]| parts(degrees).iter().all(|parts| parts.len() == 1);
         assert!(whole(&[1.0]) && whole(&[89.0]) && whole(&[10.0, 12.0, 10.0]) && whole(&[80.0, 85.0]));
         assert!(!whole(&[10.0, 20.0]) && !whole(&[40.0, 100.0]));
     }
@@ -262,12 +254,10 @@ mod tests {
         for degrees in [
             &[1.0, 179.0][..],
             &[30.0, 150.0, 30.0, 150.0],
-            &[5.0, 60.0, 7.0, 200.0, 88.0],
+            &[5.0, 60.0, 7.0, 200.0, 87.0],
             &[2.0, 3.5, 354.5],
         ] {
-            let sum: f64 = degrees.iter().sum();
-            let is_closed = sum > 359.0;
-            let parts = parts(degrees, is_closed);
+            let parts = parts(degrees);
             for (parts, angle) in parts.iter().zip(degrees) {
                 assert!((parts.iter().sum::<f64>().to_degrees() - angle).abs() < 1e-9);
             }
@@ -278,11 +268,37 @@ mod tests {
                 "{degrees:?}: {all:?}"
             );
             let pairs = all.windows(2).map(|pair| [pair[0], pair[1]]);
-            let last = is_closed.then(|| [all[all.len() - 1], all[0]]);
+            let last = (degrees.iter().sum::<f64>() > 359.0).then(|| [all[all.len() - 1], all[0]]);
             for [one, other] in pairs.chain(last) {
                 assert!(fit(one.min(other), one.max(other), 0.25), "{degrees:?}: {one} {other}");
             }
             assert!(all.len() < 80, "{degrees:?}: {}", all.len());
         }
+    }
+
+    #[test]
+    fn sizes_grow_on_across_a_notch() {
+        // 2° inside, 4° outside, 60° inside: beside the notch, parts of the last are as small as the 2° ask for.
+        let wedge = |degrees: f64, inside| Wedge {
+            from: 0,
+            to: 1,
+            angle: f64::to_radians(degrees),
+            face: 0,
+            inside,
+        };
+        let parts = divide(
+            &[
+                wedge(2.0, true),
+                wedge(4.0, false),
+                wedge(60.0, true),
+                wedge(294.0, false),
+            ],
+            0.25,
+        );
+        assert!(parts[0].len() == 1 && parts[1].is_empty() && parts[3].is_empty());
+        assert!(
+            parts[2][0].to_degrees() < 5.0 && parts[2][parts[2].len() - 1].to_degrees() > 8.0,
+            "{parts:?}"
+        );
     }
 }
