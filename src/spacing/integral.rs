@@ -6,11 +6,12 @@
 //! quarters; the quarters give the value, a third of the difference is the error. Triangles with the largest errors,
 //! together 60 % of the whole, are split until the sum of all errors is within the tolerance (bulk chasing, Dörfler). Two halves
 //! instead of four quarters would not do: a function that does not vary along the edge that is cut gives the same sum.
+//! `start.rs` makes the triangles to begin with.
 //!
 //! # Guarantee
 //! An estimate, not a proof: on smooth parts the quarters are some 60 times better than the difference says, at the kinks
 //! of lfs some 4 times, and errors at kinks cancel. So that no valley is missed, triangles first become shorter than
-//! f / λ, with λ the Lipschitz constant of f, and than [`COARSEST`] of the domain: within one, f varies at most by its
+//! f / λ, with λ the Lipschitz constant of f, and than a share of the domain ([`start`]): within one, f varies at most by its
 //! own size.
 //!
 //! # Reference
@@ -18,11 +19,11 @@
 
 use super::cover::check_positive;
 use super::{Spacing, SpacingError};
-use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
-use crate::mesh::Piece;
 use rayon::prelude::*;
+
+mod start;
 
 /// A quarter has at least this share of the error of the whole. A kink that cuts off a corner is seen by no point of the
 /// rule; without this such quarters would pass for exact while all others are refined. Errors at a kink shrink by about
@@ -39,15 +40,11 @@ const MAX_EVALUATIONS: usize = 200_000_000;
 /// Share of the estimated error that the triangles to split hold together.
 const BULK: f64 = 0.6;
 
-/// Triangles are at first shorter than this share of the domain, so that the error is a sum over hundreds of them and no
-/// accident.
-const COARSEST: f64 = 1.0 / 32.0;
-
-/// Most parts of one triangle before any error is known: where f is that small, so is no mesh.
-const MAX_PARTS: usize = 4_000_000;
-
 /// Points of Radon's rule.
 const POINTS: usize = 7;
+
+/// Evaluations until a part's error is known: its centroid and its parent's, the rule on it and on its quarters.
+const EVALUATIONS_A_PART: usize = 5 * POINTS + 2;
 
 /// ∫_Ω dA / f² with its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,18 +76,11 @@ struct Part {
 /// [`SpacingError::Triangulation`] where the domain cannot be triangulated.
 pub fn integrate(function: &dyn Spacing, domain: &Domain, tolerance: f64) -> Result<Integral, SpacingError> {
     check_positive(function, domain)?;
-    let pieces = domain.segments().iter().zip(0..);
-    let pieces = pieces
-        .map(|(s, segment)| Piece {
-            a: s.a as u32,
-            b: s.b as u32,
-            segment,
-        })
-        .collect();
-    let mesh = triangulate(domain, domain.vertices().to_vec(), pieces)?;
-    let corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.points[vertex as usize]);
-    let triangles: Vec<Triangle> = mesh.triangles.iter().map(corners).collect();
-    integrate_over(function, &triangles, COARSEST * domain.bounds().diagonal(), tolerance)
+    let parts = start::triangles(function, domain)?
+        .into_par_iter()
+        .map(|triangle| Part::new(function, triangle, rule(function, &triangle)?, 0.0))
+        .collect::<Result<_, _>>()?;
+    refine(function, parts, tolerance)
 }
 
 /// The number of triangles if all were equilateral with edges c_b f: `integral` · 4 / (√3 c_b²).
@@ -100,23 +90,14 @@ pub fn estimate_triangles(integral: f64, c_b: f64) -> f64 {
     integral * 4.0 / (3f64.sqrt() * c_b * c_b)
 }
 
-fn integrate_over(
-    function: &dyn Spacing,
-    triangles: &[Triangle],
-    coarsest: f64,
-    tolerance: f64,
-) -> Result<Integral, SpacingError> {
-    let cut: Vec<Vec<Part>> = triangles
-        .par_iter()
-        .map(|&triangle| resolve(function, triangle, coarsest))
-        .collect::<Result<_, _>>()?;
-    let mut parts = cut.concat();
-    let mut evaluations = parts.len() * (5 * POINTS + 2);
+/// Splits the parts with the largest errors until all errors together are within the tolerance.
+fn refine(function: &dyn Spacing, mut parts: Vec<Part>, tolerance: f64) -> Result<Integral, SpacingError> {
+    let mut evaluations = parts.len() * EVALUATIONS_A_PART;
     loop {
         let value = sum(parts.iter().map(|part| part.quarters.iter().sum()));
         let error = sum(parts.iter().map(|part| part.error));
         if !value.is_finite() {
-            return Err(overflow(&parts));
+            return Err(overflow(function, &parts));
         }
         if error <= tolerance * value {
             return Ok(Integral {
@@ -145,13 +126,17 @@ fn integrate_over(
 }
 
 /// Tells of a part over which 1 / f² is beyond all numbers.
-fn overflow(parts: &[Part]) -> SpacingError {
+fn overflow(function: &dyn Spacing, parts: &[Part]) -> SpacingError {
     let is_over = |part: &&Part| !part.quarters.iter().sum::<f64>().is_finite();
     let at = parts
         .iter()
         .find(is_over)
         .map_or(DVec2::NAN, |part| centroid(&part.corners));
-    SpacingError::TooSmall { x: at.x, y: at.y }
+    SpacingError::TooSmall {
+        value: function.at(at),
+        x: at.x,
+        y: at.y,
+    }
 }
 
 /// The parts with the largest errors that hold `wanted` together; of equals the first.
@@ -167,37 +152,6 @@ fn largest(parts: &[Part], wanted: f64) -> Vec<usize> {
     let count = count.count();
     order.truncate(count);
     order
-}
-
-/// Bisects until no edge is longer than f / λ at the centroid, or than `coarsest`.
-fn resolve(function: &dyn Spacing, triangle: Triangle, coarsest: f64) -> Result<Vec<Part>, SpacingError> {
-    let slope = function.lipschitz();
-    let mut pending = vec![triangle];
-    let mut resolved = Vec::new();
-    while let Some(next) = pending.pop() {
-        let start = longest_edge(&next);
-        let longest = next[start].distance(next[(start + 1) % 3]);
-        let value = checked(function, centroid(&next))?;
-        // Where λ is infinite nothing is known of f nearby.
-        let reach = if slope.is_finite() {
-            value / slope
-        } else {
-            f64::INFINITY
-        };
-        if longest > reach.min(coarsest) {
-            pending.extend(bisect(&next));
-        } else {
-            resolved.push(next);
-        }
-        if resolved.len() > MAX_PARTS {
-            let at = centroid(&next);
-            return Err(SpacingError::TooSmall { x: at.x, y: at.y });
-        }
-    }
-    resolved
-        .into_iter()
-        .map(|triangle| Part::new(function, triangle, rule(function, &triangle)?, 0.0))
-        .collect()
 }
 
 impl Part {
@@ -224,23 +178,6 @@ impl Part {
 
 fn centroid(triangle: &Triangle) -> DVec2 {
     (triangle[0] + triangle[1] + triangle[2]) / 3.0
-}
-
-/// The corner at which the longest edge starts; of equals the first.
-fn longest_edge(triangle: &Triangle) -> usize {
-    let length = |corner: usize| triangle[corner].distance_squared(triangle[(corner + 1) % 3]);
-    (1..3).fold(
-        0,
-        |best, corner| if length(corner) > length(best) { corner } else { best },
-    )
-}
-
-/// The two halves on either side of the middle of the longest edge.
-fn bisect(triangle: &Triangle) -> [Triangle; 2] {
-    let start = longest_edge(triangle);
-    let [a, b, c] = [0, 1, 2].map(|offset| triangle[(start + offset) % 3]);
-    let middle = 0.5 * (a + b);
-    [[a, middle, c], [middle, b, c]]
 }
 
 /// The four similar triangles between corners and middles of edges.

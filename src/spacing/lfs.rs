@@ -46,8 +46,9 @@ impl Lfs {
         if vertices.len() < 2 {
             return Err(SpacingError::NoFeatures);
         }
-        // Some room outside for a mesher that looks past the boundary; beyond that a query looks at every feature.
-        let room = DVec2::splat(0.05 * bounds.diagonal());
+        // Some room outside for a mesher that looks past the boundary; beyond that a query looks at every feature. Beside
+        // a long thin domain lists would be long, and nobody looks that far.
+        let room = DVec2::splat((0.05 * bounds.diagonal()).min(bounds.size().min_element()));
         let root = Rect {
             min: bounds.min - room,
             max: bounds.max + room,
@@ -208,6 +209,22 @@ mod tests {
             Lfs::new(&[DVec2::X, DVec2::X], &[]),
             Err(SpacingError::NotPositive { .. })
         ));
+    }
+
+    /// A fan: its segments stay on the lists of all cells around its vertex, which were cut to a thousandth of lfs.
+    #[test]
+    fn the_index_of_a_fan_is_small() {
+        let tip = |k: usize| DVec2::from_angle((33.0 + k as f64).to_radians());
+        let mut vertices = vec![DVec2::ZERO];
+        vertices.extend((0..24).map(tip));
+        let segments: Vec<[usize; 2]> = (1..=24).map(|k| [0, k]).collect();
+        let (nodes, entries) = Lfs::new(&vertices, &segments).unwrap().index_size();
+        assert!(
+            nodes < 40_000 && entries < 1_000_000,
+            "{nodes} nodes, {entries} entries"
+        );
+        let points: Vec<DVec2> = pseudo_random_points(500).into_iter().map(|p| 1.2 * p).collect();
+        assert_is_naive(&vertices, &segments, &points);
     }
 
     #[test]

@@ -139,9 +139,12 @@ pub enum SpacingError {
     },
     /// f is so small on so long a stretch that its integral cannot be resolved.
     #[error(
-        "spacing is too small near ({x:?}, {y:?}) to integrate 1 / f^2; choose a larger one, or move apart what nearly touches"
+        "spacing is too small near ({x:?}, {y:?}), where it is {value:e}, to integrate 1 / f^2: no mesh so fine could be held; \
+         choose a larger one, or move apart what nearly touches"
     )]
     TooSmall {
+        /// What it is there.
+        value: f64,
         /// Where.
         x: f64,
         /// Where.

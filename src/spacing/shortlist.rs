@@ -27,8 +27,23 @@ const DEPTH: usize = 40;
 /// there, many features tie, and smaller cells would not help.
 const FINEST: f64 = 1e-3;
 
+/// Once radius · slope is below this share of the function, a list as long as [`LONG`] is left as it is: far from many
+/// features, short lists would take a thousand cells for each, and such cells are few where spacing follows lfs.
+const FAR: f64 = 1.0 / 16.0;
+
+/// See [`FAR`].
+const LONG: usize = 1024;
+
 /// A list this short is not worth splitting.
 const SHORT: usize = 16;
+
+/// A cell smaller than the function there is not split once so many levels in turn have each left out under 1 /
+/// [`PROGRESS`] of the list: what is incident to all that is near, as the segments of a fan at its vertex, stays on it
+/// however small the cell.
+const IDLE_LEVELS: usize = 2;
+
+/// See [`IDLE_LEVELS`].
+const PROGRESS: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -53,12 +68,14 @@ struct Pending {
     cell: Rect,
     depth: usize,
     list: Vec<u32>,
+    /// Levels in turn that left out next to nothing.
+    idle: usize,
     is_leaf: bool,
 }
 
 impl Pending {
-    /// `parent` lists all items that matter in a cell around this one.
-    fn new(features: &Features, node: u32, cell: Rect, depth: usize, parent: &[u32]) -> Self {
+    /// `parent` lists all items that matter in a cell around this one; `idle` is that cell's.
+    fn new(features: &Features, node: u32, cell: Rect, depth: usize, (parent, idle): (&[u32], usize)) -> Self {
         let (centre, radius) = (cell.centre(), 0.5 * cell.diagonal());
         let (value, deciding) = features.decide(parent, centre);
         let deciding = deciding.map(|item| features.view(item, centre));
@@ -69,13 +86,17 @@ impl Pending {
             deciding.iter().any(may_win)
         };
         let list: Vec<u32> = parent.iter().copied().filter(matters).collect();
-        let is_fine = radius <= FINEST * value;
-        let is_leaf = list.len() <= SHORT || depth >= DEPTH || is_fine;
+        let finest = if list.len() < LONG { FINEST } else { FAR };
+        let is_fine = radius <= finest * value;
+        let is_idle = radius <= value && PROGRESS * (parent.len() - list.len()) < parent.len();
+        let idle = if is_idle { idle + 1 } else { 0 };
+        let is_leaf = list.len() <= SHORT || depth >= DEPTH || is_fine || idle >= IDLE_LEVELS;
         Self {
             node,
             cell,
             depth,
             list,
+            idle,
             is_leaf,
         }
     }
@@ -90,7 +111,7 @@ impl Shortlists {
             lists: Vec::new(),
         };
         let all: Vec<u32> = (0..features.len() as u32).collect();
-        let mut pending = vec![Pending::new(features, 0, root, 0, &all)];
+        let mut pending = vec![Pending::new(features, 0, root, 0, (&all, 0))];
         while let Some(next) = pending.pop() {
             if next.is_leaf {
                 tree.nodes[next.node as usize] = Node {
@@ -104,7 +125,13 @@ impl Shortlists {
             tree.nodes[next.node as usize] = Node { first, count: INNER };
             tree.nodes.extend([Node { first: 0, count: 0 }; 4]);
             for (cell, node) in next.cell.quarters().into_iter().zip(first..) {
-                pending.push(Pending::new(features, node, cell, next.depth + 1, &next.list));
+                pending.push(Pending::new(
+                    features,
+                    node,
+                    cell,
+                    next.depth + 1,
+                    (&next.list, next.idle),
+                ));
             }
         }
         tree.nodes.shrink_to_fit();

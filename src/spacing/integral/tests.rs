@@ -1,6 +1,7 @@
 use super::super::testing::gallery;
 use super::super::{Expression, Lfs, Options, Uniform, build, lfs_of};
 use super::*;
+use crate::domain::{Fill, InputSegment, Pslg};
 
 fn of_expression(text: &str, tolerance: f64) -> Integral {
     let domain = gallery("unit-square");
@@ -116,4 +117,49 @@ fn equilateral_triangles_are_counted() {
     // A square of side 1 holds 4 / √3 · 10⁴ triangles of edge 0.01.
     let estimate = estimate_triangles(1e6, 0.1);
     assert!((estimate / (4.0 / 3f64.sqrt() * 1e8) - 1.0).abs() < 1e-12);
+}
+
+/// A comb of `teeth`, one tooth a unit of length, over one long segment.
+fn long_comb(teeth: u32) -> Domain {
+    let mut ring = vec![[0.0, -1.0], [f64::from(teeth), -1.0], [f64::from(teeth), 0.0]];
+    for tooth in (0..teeth).rev().map(f64::from) {
+        let sides = [tooth + 0.75, tooth + 0.25];
+        ring.extend([[sides[0], 0.0], [sides[0], 1.0], [sides[1], 1.0], [sides[1], 0.0]]);
+    }
+    ring.push([0.0, 0.0]);
+    let count = ring.len();
+    let segments = (0..count).map(|k| InputSegment {
+        a: k,
+        b: (k + 1) % count,
+        marker: 1,
+    });
+    Domain::new(Pslg {
+        vertices: ring.into_iter().map(DVec2::from).collect(),
+        segments: segments.collect(),
+        fill: Fill::EvenOdd {
+            flips: vec![true; count],
+        },
+        ..Pslg::default()
+    })
+    .unwrap()
+}
+
+/// Each tooth makes a needle as long as the comb, and each needle is cut into as many parts as that is long.
+#[test]
+fn needles_over_a_long_segment_are_avoided_by_cutting_it() {
+    let parts = |teeth, is_cut: bool| {
+        let domain = long_comb(teeth);
+        let lfs = lfs_of(&domain).unwrap();
+        let reach = |x: DVec2| Ok(lfs.at(x));
+        let inner = |ends, room| match is_cut {
+            true => start::inner_points(ends, reach, room),
+            false => Ok(Some(Vec::new())),
+        };
+        let base = start::base(&domain, inner).unwrap().unwrap();
+        start::cut(base, reach, usize::MAX).unwrap().unwrap().len()
+    };
+    let (whole, cut) = (parts(128, false), parts(128, true));
+    assert!(8 * cut < whole, "{cut} of {whole}");
+    let (few, many) = (parts(32, true), parts(256, true));
+    assert!(many < 10 * few, "{few} parts for 32 teeth, {many} for 256");
 }

@@ -1,0 +1,168 @@
+//! The triangles that integration starts from: no longer than f / λ, so that f varies within one at most by its own size.
+//!
+//! The constrained Delaunay triangulation of the domain alone is bisected at longest edges. A long segment opposite to
+//! many short ones makes a fan of needles there, each of which is cut into as many parts as a wide triangle would be (a comb
+//! of n teeth: n² parts). Where the number of parts grows large, the domain is triangulated anew with its segments cut into
+//! pieces of about f / λ.
+
+use super::{EVALUATIONS_A_PART, MAX_EVALUATIONS, SpacingError, Triangle, centroid, checked};
+use crate::delaunay::triangulate;
+use crate::domain::Domain;
+use crate::geometry::DVec2;
+use crate::mesh::Piece;
+use crate::spacing::Spacing;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Triangles are shorter than this share of the domain, so that the error is a sum over hundreds of them and no accident.
+const COARSEST: f64 = 1.0 / 32.0;
+
+/// So many triangles of whole segments are taken as they are.
+const FEW: usize = 1 << 20;
+
+/// Most triangles: more could not be looked at once. Where f is that small, so is no mesh.
+const MOST: usize = MAX_EVALUATIONS / EVALUATIONS_A_PART;
+
+/// The triangles, in an order that does not depend on the number of threads.
+///
+/// # Errors
+/// [`SpacingError::TooSmall`] where there would be too many, [`SpacingError::NotPositive`] where f is not,
+/// [`SpacingError::Triangulation`] where the domain cannot be triangulated.
+pub fn triangles(function: &dyn Spacing, domain: &Domain) -> Result<Vec<Triangle>, SpacingError> {
+    let slope = function.lipschitz();
+    let coarsest = COARSEST * domain.bounds().diagonal();
+    // Where λ is infinite nothing is known of f nearby.
+    let reach = |value: f64| {
+        if slope.is_finite() {
+            coarsest.min(value / slope)
+        } else {
+            coarsest
+        }
+    };
+    let reach_at = |x: DVec2| checked(function, x).map(reach);
+    let whole = base(domain, |_, _| Ok(Some(Vec::new())))?;
+    let few = whole.map_or(Ok(None), |whole| cut(whole, reach_at, FEW))?;
+    if let Some(triangles) = few {
+        return Ok(triangles);
+    }
+    let pieces = base(domain, |ends, room| inner_points(ends, reach_at, room))?;
+    let most = pieces.map_or(Ok(None), |pieces| cut(pieces, reach_at, MOST))?;
+    most.ok_or_else(|| narrowest(function, domain))
+}
+
+/// The constrained Delaunay triangulation of the domain with further points on its segments; none if they are too many.
+/// `inner` gives those between two ends, none if they are more than there is room for.
+pub(super) fn base(
+    domain: &Domain,
+    inner: impl Fn([DVec2; 2], usize) -> Result<Option<Vec<DVec2>>, SpacingError>,
+) -> Result<Option<Vec<Triangle>>, SpacingError> {
+    let mut points = domain.vertices().to_vec();
+    let mut pieces = Vec::new();
+    for (segment, ends) in domain.segments().iter().zip(0..) {
+        let first = points.len() as u32;
+        let Some(between) = inner(domain.ends(ends as usize), MOST.saturating_sub(points.len()))? else {
+            return Ok(None);
+        };
+        points.extend(between);
+        let between = first..points.len() as u32;
+        let chain: Vec<u32> = std::iter::once(segment.a as u32)
+            .chain(between)
+            .chain([segment.b as u32])
+            .collect();
+        pieces.extend(chain.windows(2).map(|pair| Piece {
+            a: pair[0],
+            b: pair[1],
+            segment: ends,
+        }));
+    }
+    let mesh = triangulate(domain, points, pieces)?;
+    let corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.points[vertex as usize]);
+    Ok(Some(mesh.triangles.iter().map(corners).collect()))
+}
+
+/// Points between the ends, by bisection, that leave no piece longer than f / λ at its middle.
+pub(super) fn inner_points(
+    ends: [DVec2; 2],
+    reach_at: impl Fn(DVec2) -> Result<f64, SpacingError>,
+    room: usize,
+) -> Result<Option<Vec<DVec2>>, SpacingError> {
+    let mut pending = vec![ends];
+    let mut points = Vec::new();
+    while let Some([a, b]) = pending.pop() {
+        let middle = a.midpoint(b);
+        if middle != a && middle != b && a.distance(b) > reach_at(middle)? {
+            pending.extend([[middle, b], [a, middle]]);
+        } else if b != ends[1] {
+            points.push(b);
+        }
+        if points.len() + pending.len() > room {
+            return Ok(None);
+        }
+    }
+    Ok(Some(points))
+}
+
+/// Bisects until no edge is longer than f / λ at the centroid; none if there are more than `most` then.
+pub(super) fn cut(
+    base: Vec<Triangle>,
+    reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
+    most: usize,
+) -> Result<Option<Vec<Triangle>>, SpacingError> {
+    let count = AtomicUsize::new(base.len());
+    let resolve = |triangle: Triangle| {
+        let mut pending = vec![triangle];
+        let mut resolved = Vec::new();
+        while let Some(next) = pending.pop() {
+            let start = longest_edge(&next);
+            let longest = next[start].distance(next[(start + 1) % 3]);
+            if longest <= reach_at(centroid(&next))? {
+                resolved.push(next);
+                continue;
+            }
+            pending.extend(bisect(&next));
+            // However the threads take turns, this happens if and only if there are more in the end.
+            if count.fetch_add(1, Ordering::Relaxed) >= most {
+                return Ok(None);
+            }
+        }
+        Ok(Some(resolved))
+    };
+    let parts: Option<Vec<Vec<Triangle>>> = base
+        .into_par_iter()
+        .map(resolve)
+        .collect::<Result<Option<_>, SpacingError>>()?;
+    Ok(parts.map(|parts| parts.concat()))
+}
+
+/// Tells where f is smallest, of all ends and middles of segments: lfs has its minima there.
+fn narrowest(function: &dyn Spacing, domain: &Domain) -> SpacingError {
+    let places = (0..domain.segments().len())
+        .map(|s| domain.ends(s))
+        .flat_map(|[a, b]| [a, a.midpoint(b), b]);
+    let lowest = places
+        .map(|x| (function.at(x), x))
+        .min_by(|one, other| one.0.total_cmp(&other.0));
+    let (value, at) = lowest.unwrap_or((f64::NAN, DVec2::NAN));
+    SpacingError::TooSmall {
+        value,
+        x: at.x,
+        y: at.y,
+    }
+}
+
+/// The corner at which the longest edge starts; of equals the first.
+fn longest_edge(triangle: &Triangle) -> usize {
+    let length = |corner: usize| triangle[corner].distance_squared(triangle[(corner + 1) % 3]);
+    (1..3).fold(
+        0,
+        |best, corner| if length(corner) > length(best) { corner } else { best },
+    )
+}
+
+/// The two halves on either side of the middle of the longest edge.
+fn bisect(triangle: &Triangle) -> [Triangle; 2] {
+    let start = longest_edge(triangle);
+    let [a, b, c] = [0, 1, 2].map(|offset| triangle[(start + offset) % 3]);
+    let middle = 0.5 * (a + b);
+    [[a, middle, c], [middle, b, c]]
+}
