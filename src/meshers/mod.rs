@@ -205,6 +205,20 @@ pub enum MeshError {
         /// Where.
         y: f64,
     },
+    /// The spacing is steeper between two points than the constant it promises.
+    #[error(
+        "spacing is {} at ({:?}, {:?}) and {} at ({:?}, {:?}): a change of more than {alpha} times their distance, which is what \
+         lipschitz() promises; limit it, or promise less",
+        values[0], points[0].x, points[0].y, values[1], points[1].x, points[1].y
+    )]
+    NotLipschitz {
+        /// The two points.
+        points: [crate::geometry::DVec2; 2],
+        /// f there.
+        values: [f64; 2],
+        /// The constant it promises.
+        alpha: f64,
+    },
     /// The method cannot take this input, and why.
     #[error("declined: {0}")]
     Declined(String),

@@ -3,6 +3,7 @@
 use super::{MeshError, Request};
 use crate::domain::Domain;
 use crate::geometry::{DVec2, tolerance};
+use crate::mesh::Mesh;
 use crate::spacing::Spacing;
 
 /// s as every mesher asks for it: equal work for all.
@@ -11,14 +12,18 @@ pub(super) struct Sizing<'a> {
     pub spacing: &'a dyn Spacing,
     c_b: f64,
     smallest: f64,
+    /// What rounding of coordinates can make of a difference of two sizes.
+    slack: f64,
 }
 
 impl<'a> Sizing<'a> {
     pub fn new(domain: &Domain, spacing: &'a dyn Spacing, request: &Request) -> Self {
+        let largest_coordinate = domain.bounds().largest_coordinate();
         Self {
             spacing,
             c_b: request.c_b,
-            smallest: tolerance::RESOLUTION * domain.bounds().largest_coordinate(),
+            smallest: tolerance::RESOLUTION * largest_coordinate,
+            slack: request.c_b * tolerance::LOWER_BOUND * largest_coordinate,
         }
     }
 
@@ -47,5 +52,32 @@ impl<'a> Sizing<'a> {
             )));
         }
         Ok(size)
+    }
+
+    /// Refuses two points whose sizes, as [`Self::at`] gave them, differ by more than a t-Lipschitz s can. Meshers ask where
+    /// they rely on it: of a new vertex and those near it.
+    pub fn agree(&self, points: [DVec2; 2], sizes: [f64; 2]) -> Result<(), MeshError> {
+        let change = (sizes[0] - sizes[1]).abs();
+        let allowed = self.t() * points[0].distance(points[1]) + tolerance::CERTIFICATE * sizes[0].max(sizes[1]);
+        if change > allowed + self.slack {
+            return Err(MeshError::NotLipschitz {
+                points,
+                values: points.map(|x| self.spacing.at(x)),
+                alpha: self.spacing.lipschitz(),
+            });
+        }
+        Ok(())
+    }
+
+    /// [`Self::agree`] for the ends of every edge: where circles whose sizes do not agree are not found to be near each other.
+    pub fn agree_along_edges(&self, mesh: &Mesh) -> Result<(), MeshError> {
+        let sizes: Vec<f64> = mesh.points.iter().map(|&x| self.at(x)).collect::<Result<_, _>>()?;
+        for corners in &mesh.triangles {
+            let [a, b, c] = corners.map(|corner| corner as usize);
+            for (one, other) in [(a, b), (b, c), (c, a)] {
+                self.agree([mesh.points[one], mesh.points[other]], [sizes[one], sizes[other]])?;
+            }
+        }
+        Ok(())
     }
 }

@@ -109,7 +109,7 @@ fn attempt(case: &Case) -> Result<Trial, (Verdict, String)> {
     };
     let run = measure::run(&prepared, &*mesher, &request).map_err(|error| match error {
         MeshError::Budget { .. } => (Verdict::Stopped, error.to_string()),
-        MeshError::Spacing { .. } | MeshError::Declined(_) | MeshError::Triangulation(_) => declined(error.to_string()),
+        _ => declined(error.to_string()),
     })?;
     let guaranteed = entry.guaranteed(&cell.params, &prepared.site.domain, &*prepared.spacing, cell.c_b);
     let broken = broken(&prepared, case, &guaranteed, &run.mesh);

@@ -14,9 +14,11 @@ impl Front<'_> {
         let [a, b] = base.ends;
         let node = match apex {
             Apex::Node(node) => node,
-            Apex::New(at, size) if size.is_finite() => self.add_node(at, size)?,
-            Apex::New(at, _) => {
-                let size = self.sizing.at(at)?;
+            Apex::New(at, size) => {
+                let size = if size.is_finite() { size } else { self.sizing.at(at)? };
+                for end in [a, b].map(|end| self.nodes[end as usize]) {
+                    self.sizing.agree([at, end.at], [size, end.size])?;
+                }
                 self.add_node(at, size)?
             }
         };

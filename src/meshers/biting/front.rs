@@ -83,6 +83,8 @@ pub(super) struct Front<'a> {
     serials: u32,
     queue: Queue,
     near: Vec<Near>,
+    /// The two circles that the vertex taken last lies on.
+    parents: [u32; 2],
     monitor: Monitor,
 }
 
@@ -111,6 +113,7 @@ impl<'a> Front<'a> {
             serials: 0,
             queue: Queue::new(order, request.seed),
             near: Vec::new(),
+            parents: [0; 2],
             monitor: Monitor::new(&request.budget),
         }
     }
@@ -174,6 +177,7 @@ impl<'a> Front<'a> {
         while let Some(ticket) = self.queue.pop() {
             let slot = &self.slots[ticket.slot as usize];
             if slot.serial == ticket.serial {
+                self.parents = slot.discs;
                 return Some(slot.point);
             }
         }
@@ -186,6 +190,9 @@ impl<'a> Front<'a> {
             centre: x,
             radius: self.radius_at(x)?,
         };
+        for parent in self.parents.map(|id| self.bitten.disc(id)) {
+            self.radii.agree([x, parent.centre], [disc.radius, parent.radius])?;
+        }
         let mut near = std::mem::take(&mut self.near);
         self.bitten.meeting(disc.centre, disc.radius, &mut near);
         let id = self.insert(disc)?;

@@ -94,6 +94,10 @@ impl<'a> Bounds<'a> {
 
     /// What is wrong with a triangle, given s at its corners.
     pub fn flaw(&self, corners: [DVec2; 3], sizes: [f64; 3], shape: &Shape) -> Result<Option<Flaw>, MeshError> {
+        for (one, other) in [(0, 1), (1, 2), (2, 0)] {
+            self.sizing
+                .agree([corners[one], corners[other]], [sizes[one], sizes[other]])?;
+        }
         if self.is_too_large(corners, sizes, shape)? {
             return Ok(Some(Flaw::Size));
         }

@@ -226,6 +226,8 @@ impl Mesher for QuadtreeMis {
         trace: &mut Trace,
     ) -> Result<Mesh, MeshError> {
         let Packing { centres, pieces, .. } = self.pack(domain, spacing, request, trace)?;
-        Ok(trace.step("triangulate", || triangulate(domain, centres, pieces))?)
+        let mesh = trace.step("triangulate", || triangulate(domain, centres, pieces))?;
+        Sizing::new(domain, spacing, request).agree_along_edges(&mesh)?;
+        Ok(mesh)
     }
 }
