@@ -9,6 +9,8 @@ pub enum FaultKind {
     NotFinite,
     /// All vertices lie so near together that areas vanish.
     TooSmall,
+    /// A coordinate is so near to 0, without being it, that areas vanish.
+    NearlyZero,
     /// A segment names a vertex that does not exist.
     NoSuchVertex,
     /// Fewer than three vertices or segments.
@@ -48,8 +50,9 @@ impl FaultKind {
     /// What to do about it.
     pub fn advice(self) -> &'static str {
         match self {
-            Self::NotFinite => "give finite coordinates of at most 1e70 in size",
-            Self::TooSmall => "multiply all coordinates so that the larger side is at least 1e-70",
+            Self::NotFinite => "give finite coordinates of at most 1e60 in size",
+            Self::TooSmall => "multiply all coordinates so that the larger side is at least 1e-24",
+            Self::NearlyZero => "write 0, or give coordinates of at least 1e-40 in size",
             Self::NoSuchVertex => "number the ends as the vertices are numbered",
             Self::TooFew => "a domain needs at least three vertices joined by three segments",
             Self::DuplicateVertices => "use one of them for both, or let --repair merge them",

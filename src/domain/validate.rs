@@ -13,11 +13,16 @@ use std::cmp::Ordering;
 /// Most faults collected; a hopeless file would otherwise yield a quadratic number of crossings.
 const MOST_FAULTS: usize = 1000;
 
-/// Largest coordinate: products of four of them, as in the in-circle test, stay finite. The advice names it.
-const LARGEST: f64 = 1e70;
+/// Largest coordinate: spade takes 3e60, and products of four of them, as in the in-circle test, stay finite. The advice
+/// names it.
+const LARGEST: f64 = 1e60;
 
-/// Smallest larger side: what is a millionth of it still has in-circle tests that do not vanish. The advice names it.
-const SMALLEST_SIDE: f64 = 1e-70;
+/// Smallest coordinate but 0: spade takes 2e-43, and products of four do not vanish. The advice names it.
+const SMALLEST: f64 = 1e-40;
+
+/// Smallest larger side, so that points between the vertices keep coordinates above [`SMALLEST`] as well, which rounding
+/// leaves at 1e-16 of it where they are not 0. The advice names it.
+const SMALLEST_SIDE: f64 = 1e-24;
 
 /// Every fault of coordinates, indices and segments; what holds faces is judged by [`super::Domain::new`].
 pub fn faults(pslg: &Pslg) -> Vec<Fault> {
@@ -152,6 +157,9 @@ impl Report<'_> {
         if self.faults.is_empty() {
             self.size();
         }
+        if self.faults.is_empty() {
+            self.nearly_zero();
+        }
     }
 
     fn size(&mut self) {
@@ -161,6 +169,15 @@ impl Report<'_> {
             let [x, y] = bounds.min.to_array();
             let message = format!("all vertices lie in a box at ({x:?}, {y:?}) whose larger side is {side:e}");
             self.add(FaultKind::TooSmall, vec![], vec![], message);
+        }
+    }
+
+    fn nearly_zero(&mut self) {
+        for (v, &p) in self.pslg.vertices.iter().enumerate() {
+            if p.to_array().iter().any(|&x| x != 0.0 && x.abs() < SMALLEST) {
+                let message = format!("{} is at ({:?}, {:?})", self.vertex(v), p.x, p.y);
+                self.add(FaultKind::NearlyZero, vec![v], vec![], message);
+            }
         }
     }
 

@@ -85,7 +85,7 @@ pub fn repair(input: Pslg) -> (Pslg, RepairReport) {
     let hopeless = |kind| {
         matches!(
             kind,
-            FaultKind::NotFinite | FaultKind::NoSuchVertex | FaultKind::TooSmall
+            FaultKind::NotFinite | FaultKind::NoSuchVertex | FaultKind::TooSmall | FaultKind::NearlyZero
         )
     };
     let faults = validate::faults(&input);
