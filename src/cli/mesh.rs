@@ -11,7 +11,7 @@ use crate::experiment::prepare::{Prepared, Store};
 use crate::experiment::record::{Cell, Report};
 use crate::experiment::runner;
 use crate::files::write_whole;
-use crate::meshers::{Budget, MeshError, Mesher, Request};
+use crate::meshers::{Budget, Entry, MeshError, Mesher, Request};
 use crate::spacing;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -64,7 +64,7 @@ pub struct Arguments {
     /// Most vertices a mesh may have
     #[arg(long, value_name = "N")]
     max_vertices: Option<usize>,
-    /// Most seconds the mesher may take; before it as many for the spacing
+    /// Most seconds the mesher may take, and as many for domain, spacing and certificate each
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     max_seconds: Option<f64>,
     /// Most memory of the process, such as 4G
@@ -90,7 +90,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (store, prepared) = arguments.prepare(&cell, &request.budget)?;
     output::say_notes(&store, &prepared.site.domain);
     let (prepared, run) = mesh_within(prepared, mesher, request)?;
-    let report = measure::judge(&prepared, &cell, entry, &run, &machine::provenance());
+    let (prepared, run, report) = judge_within(prepared, run, &cell, entry, &request.budget)?;
     let mut written = Vec::new();
     for target in &targets {
         written.extend(output::write(target, &prepared.site.domain, &run.mesh)?);
@@ -141,10 +141,24 @@ impl Arguments {
             (store, domain)
         })?;
         let (domain, asked) = (domain.map_err(Failure::input)?, cell.clone());
-        let making = || {
+        let measuring = || {
+            let place = shortest_segment(&domain);
             format!(
-                "making the spacing of {name}, before any meshing; {}; ask for a larger t / c_b or raise the budget",
-                shortest_segment(&domain)
+                "finding the local feature size of {}, before any meshing; {place}; raise the budget",
+                cell.domain
+            )
+        };
+        let (store, site) = watch::within(budget, now, measuring, move || {
+            let site = store.site(&asked.domain);
+            (store, site)
+        })?;
+        let (site, asked) = (site.map_err(Failure::input)?, cell.clone());
+        let making = || {
+            let expected = expected(site.integral_lfs.value, cell.c_b);
+            format!(
+                "making the spacing of {}, before any meshing; {}; with lfs as spacing {expected}; ask for a larger t / c_b or \
+                 raise the budget",
+                cell.domain, site.narrowest
             )
         };
         let (store, prepared) = watch::within(budget, now, making, move || {
@@ -175,13 +189,18 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// No mesh has been seen to take less memory for a triangle: without a budget, none is begun that cannot end.
 const LEAST_BYTES_PER_TRIANGLE: f64 = 100.0;
 
+/// The number of triangles by the integral ∫dA/f², in words.
+fn expected(integral: f64, c_b: f64) -> String {
+    let triangles = spacing::estimate_triangles(integral, c_b);
+    format!("about {triangles:.3e} triangles were to be expected (∫dA/f² = {integral:.3e})")
+}
+
 /// Meshes, and tells what was to be expected where a budget ends that.
 fn mesh_within(prepared: Prepared, mesher: Box<dyn Mesher>, request: Request) -> Result<(Prepared, Run), Failure> {
     let integral = prepared.integral.value;
-    let triangles = spacing::estimate_triangles(integral, request.c_b);
-    let expected = format!("about {triangles:.3e} triangles were to be expected (∫dA/f² = {integral:.3e})");
-    let place = shortest_segment(&prepared.site.domain);
-    let fits = LEAST_BYTES_PER_TRIANGLE * triangles
+    let expected = expected(integral, request.c_b);
+    let place = prepared.site.narrowest;
+    let fits = LEAST_BYTES_PER_TRIANGLE * spacing::estimate_triangles(integral, request.c_b)
         <= machine::available_memory_bytes().map_or(f64::INFINITY, |bytes| bytes as f64);
     if request.budget == Budget::default() && !fits {
         return Err(Failure::Declined(format!(
@@ -195,11 +214,27 @@ fn mesh_within(prepared: Prepared, mesher: Box<dyn Mesher>, request: Request) ->
         (prepared, run)
     })?;
     let run = run.map_err(|error| match error {
-        MeshError::Budget { .. } => Failure::Declined(format!("{error}; {expected}")),
+        MeshError::Budget { .. } => Failure::Declined(format!("{error}; {place}; {expected}")),
         MeshError::Declined(_) => Failure::Declined(error.to_string()),
-        MeshError::Spacing { .. } | MeshError::Triangulation(_) => Failure::input(error),
+        _ => Failure::input(error),
     })?;
     Ok((prepared, run))
+}
+
+/// Judges within the same budget.
+fn judge_within(
+    prepared: Prepared,
+    run: Run,
+    cell: &Cell,
+    entry: &'static Entry,
+    budget: &Budget,
+) -> Result<(Prepared, Run, Report), Failure> {
+    let (triangles, place, cell) = (run.mesh.triangles.len(), prepared.site.narrowest, cell.clone());
+    let told = || format!("judging a finished mesh of {triangles} triangles; {place}; raise the budget");
+    watch::within(budget, Duration::ZERO, told, move || {
+        let report = measure::judge(&prepared, &cell, entry, &run, &machine::provenance());
+        (prepared, run, report)
+    })
 }
 
 /// Where a domain is likely to ask for the smallest triangles.

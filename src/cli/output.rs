@@ -113,7 +113,11 @@ pub fn verdict(certificate: &Certificate) -> Outcome {
 
 /// A check in words.
 pub fn told(check: &Check) -> String {
-    let number = |value: Option<f64>| value.map_or_else(|| "–".into(), |value| format!("{value:.6}"));
+    let number = |value: Option<f64>| match value {
+        None => "–".into(),
+        Some(value) if value != 0.0 && !(1e-3..1e7).contains(&value.abs()) => format!("{value:.3e}"),
+        Some(value) => format!("{value:.6}"),
+    };
     let place = check.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
     let lemma = if check.lemma.is_empty() {
         String::new()
@@ -131,4 +135,32 @@ pub fn told(check: &Check) -> String {
         number(check.worst),
         number(check.bound)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_values_are_told_with_their_digits() {
+        let check = |worst, bound| Check {
+            claim: "area".into(),
+            lemma: String::new(),
+            applies: true,
+            worst: Some(worst),
+            bound: Some(bound),
+            holds: false,
+            broken: 1,
+            at: None,
+            witnesses: Vec::new(),
+        };
+        assert_eq!(
+            told(&check(2.5e-8, 1e-9)),
+            "area: worst 2.500e-8 against 1.000e-9, 1 broken"
+        );
+        assert_eq!(
+            told(&check(0.0, 0.5)),
+            "area: worst 0.000000 against 0.500000, 1 broken"
+        );
+    }
 }

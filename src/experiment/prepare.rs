@@ -4,7 +4,7 @@ use super::record::Cell;
 use super::work::Outlook;
 use crate::domain::{self, Domain, DomainError, RepairReport};
 use crate::quality::Bounds;
-use crate::spacing::{self, Integral, Options, Spacing, SpacingError};
+use crate::spacing::{self, Integral, Narrowest, Options, Spacing, SpacingError};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -34,6 +34,8 @@ pub struct Site {
     pub domain: Arc<Domain>,
     /// ∫ dA / lfs².
     pub integral_lfs: Integral,
+    /// Where lfs is smallest.
+    pub narrowest: Narrowest,
 }
 
 /// A spacing on a domain, capped by lfs if asked for, not limited.
@@ -235,12 +237,20 @@ impl Store {
         }
     }
 
-    fn site(&self, name: &str) -> Result<Arc<Site>, PrepareError> {
+    /// The domain of that gallery name or file, with what lfs says of it.
+    ///
+    /// # Errors
+    /// [`PrepareError`].
+    pub fn site(&self, name: &str) -> Result<Arc<Site>, PrepareError> {
         self.sites.get(name.to_owned(), || {
             let domain = self.domain(name)?;
             let lfs = spacing::lfs_of(&domain).map_err(told(&domain))?;
             let integral_lfs = spacing::integrate(&lfs, &domain, INTEGRAL_ERROR).map_err(told(&domain))?;
-            Ok(Arc::new(Site { domain, integral_lfs }))
+            Ok(Arc::new(Site {
+                domain,
+                integral_lfs,
+                narrowest: lfs.narrowest(),
+            }))
         })
     }
 

@@ -127,6 +127,12 @@ impl Features {
         (squared.sqrt(), deciding)
     }
 
+    /// The ends of a feature, equal for a vertex.
+    pub fn ends(&self, feature: u32) -> [DVec2; 2] {
+        let feature = &self.0[feature as usize];
+        [feature.from, feature.from + feature.along]
+    }
+
     /// The feature as seen from `x`.
     pub fn view(&self, feature: u32, x: DVec2) -> View {
         View::new(self.0[feature as usize].offset(x))

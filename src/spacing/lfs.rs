@@ -18,13 +18,42 @@ use super::shortlist::Shortlists;
 use super::{Spacing, SpacingError};
 use crate::geometry::tolerance::RESOLUTION;
 use crate::geometry::{DVec2, Rect};
+use std::fmt;
+
+/// Where lfs is smallest among the vertices, and why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Narrowest {
+    /// lfs there.
+    pub value: f64,
+    /// The vertex.
+    pub at: DVec2,
+    /// The feature at that distance: the ends of a segment, or twice a vertex.
+    pub other: [DVec2; 2],
+}
+
+impl fmt::Display for Narrowest {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        let [a, b] = self.other;
+        let (x, y) = (self.at.x, self.at.y);
+        write!(
+            out,
+            "local feature size falls to {:.3e} at ({x:?}, {y:?}), so near is ",
+            self.value
+        )?;
+        if a == b {
+            write!(out, "the vertex ({:?}, {:?})", a.x, a.y)
+        } else {
+            write!(out, "the segment from ({:?}, {:?}) to ({:?}, {:?})", a.x, a.y, b.x, b.y)
+        }
+    }
+}
 
 /// lfs of a planar straight-line graph.
 #[derive(Clone, Debug)]
 pub struct Lfs {
     features: Features,
     lists: Shortlists,
-    smallest: f64,
+    narrowest: Narrowest,
 }
 
 impl Lfs {
@@ -57,7 +86,11 @@ impl Lfs {
         let mut lfs = Self {
             features,
             lists,
-            smallest: 0.0,
+            narrowest: Narrowest {
+                value: f64::INFINITY,
+                at: vertices[0],
+                other: [vertices[0]; 2],
+            },
         };
         let mut lowest = (f64::INFINITY, vertices[0]);
         for &vertex in vertices {
@@ -83,7 +116,10 @@ impl Lfs {
                 y: lowest.1.y,
             });
         }
-        lfs.smallest = 0.5 * lowest.0;
+        let (value, at) = lowest;
+        let list = lfs.lists.at(at).unwrap_or_default();
+        let other = lfs.features.ends(lfs.features.decide(list, at).1[1]);
+        lfs.narrowest = Narrowest { value, at, other };
         Ok(lfs)
     }
 
@@ -92,7 +128,12 @@ impl Lfs {
     /// The two features of the smallest disk are nearest to each other at a vertex of one of them, and lfs at a vertex
     /// is its distance to the nearest feature not incident to it.
     pub fn smallest(&self) -> f64 {
-        self.smallest
+        0.5 * self.narrowest.value
+    }
+
+    /// Where lfs is smallest among the vertices.
+    pub fn narrowest(&self) -> Narrowest {
+        self.narrowest
     }
 
     /// Nodes and entries of the index.
@@ -117,7 +158,7 @@ impl Spacing for Lfs {
     }
 
     fn lower_bound(&self, cell: Rect) -> f64 {
-        (self.at(cell.centre()) - 0.5 * cell.diagonal()).max(self.smallest)
+        (self.at(cell.centre()) - 0.5 * cell.diagonal()).max(self.smallest())
     }
 }
 
@@ -209,6 +250,18 @@ mod tests {
             Lfs::new(&[DVec2::X, DVec2::X], &[]),
             Err(SpacingError::NotPositive { .. })
         ));
+    }
+
+    #[test]
+    fn the_narrowest_place_names_both_features() {
+        let (mut vertices, segments) = square();
+        vertices.push(DVec2::new(0.4, 0.01));
+        let narrowest = Lfs::new(&vertices, &segments).unwrap().narrowest();
+        assert_eq!((narrowest.value, narrowest.at), (0.01, vertices[4]));
+        assert_eq!(narrowest.other, [DVec2::ZERO, DVec2::X]);
+        let told =
+            "local feature size falls to 1.000e-2 at (0.4, 0.01), so near is the segment from (0.0, 0.0) to (1.0, 0.0)";
+        assert_eq!(narrowest.to_string(), told);
     }
 
     /// A fan: its segments stay on the lists of all cells around its vertex, which were cut to a thousandth of lfs.

@@ -38,7 +38,7 @@ pub use expression::Expression;
 pub use gradient_limit::limit;
 pub use grammar::GrammarError;
 pub use integral::{Integral, estimate_triangles, integrate};
-pub use lfs::Lfs;
+pub use lfs::{Lfs, Narrowest};
 pub use limited::Limited;
 pub use parse::{KINDS, Spec, spec_for_size};
 pub use uniform::Uniform;
