@@ -5,6 +5,9 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
+#[cfg(unix)]
+mod disk;
+mod fingerprints;
 mod sweep;
 
 fn biting(folder: &Path) -> Command {
