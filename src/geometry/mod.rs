@@ -113,6 +113,11 @@ mod tests {
         assert_eq!(bounds.size(), DVec2::new(3.0, 4.0));
         assert_eq!(bounds.centre(), DVec2::new(2.5, 4.0));
         assert_eq!(bounds.diagonal(), 5.0);
+        assert_eq!(bounds.largest_coordinate(), 6.0);
+        assert_eq!(
+            Rect::around([DVec2::new(-7.0, 1.0), DVec2::ONE]).largest_coordinate(),
+            7.0
+        );
         let quarters = bounds.quarters();
         assert_eq!(quarters.map(|quarter| quarter.size()), [DVec2::new(1.5, 2.0); 4]);
         let corners = quarters.map(|quarter| quarter.min);

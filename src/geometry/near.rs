@@ -255,8 +255,10 @@ mod tests {
     }
 
     #[test]
-    fn the_least_height_is_the_papers_at_zero() {
+    fn the_least_height_is_the_papers_by_hand() {
         assert!((least_meeting_height(0.0) - 7f64.sqrt() / 4.0).abs() < 1e-15);
+        // ½ √((¼ − 2 + 7) ¾) / 4.
+        assert!((least_meeting_height(0.5) - 63f64.sqrt() / 32.0).abs() < 1e-15);
         assert_eq!(least_meeting_height(1.0), 0.0);
     }
 

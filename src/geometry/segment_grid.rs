@@ -188,6 +188,22 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    #[test]
+    fn a_segment_is_found_from_its_far_end() {
+        for scale in [1.0 / 1024.0, 1.0, 1024.0] {
+            let mut grid = SegmentGrid::default();
+            // Its middle and its end lie in different cells.
+            grid.insert(0, scale * DVec2::new(-0.1, 0.3), 1.2 * scale);
+            let end = Rect {
+                min: scale * DVec2::new(0.49, 0.29),
+                max: scale * DVec2::new(0.51, 0.31),
+            };
+            let mut found = Vec::new();
+            grid.near(end, |id| found.push(id));
+            assert_eq!(found, [0], "scale {scale}");
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
         #[test]

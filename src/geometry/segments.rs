@@ -6,7 +6,6 @@
 
 use super::predicates::orient2d;
 use super::{DVec2, Rect};
-use std::cmp::Ordering;
 
 /// Segments in a leaf; about where testing one more segment costs as much as one more box.
 const LEAF: usize = 4;
@@ -239,10 +238,7 @@ impl SegmentIndex {
                 let side = orient2d(low, high, x);
                 if side == 0.0 && a.x.min(b.x) <= x.x {
                     *on = Some(item.id as usize);
-                } else if side > 0.0
-                    && x.y < high.y
-                    && first.is_none_or(|known| before_at(item.ends, known.ends) == Ordering::Less)
-                {
+                } else if side > 0.0 && x.y < high.y && first.is_none_or(|known| is_before(item.ends, known.ends)) {
                     *first = Some(*item);
                 }
             },
@@ -288,8 +284,8 @@ impl SegmentIndex {
     }
 }
 
-/// Left to right order of two segments that both meet one horizontal line, do not cross, and are not horizontal.
-fn before_at(first: [DVec2; 2], second: [DVec2; 2]) -> Ordering {
+/// Whether `first` is left of `second`: both meet one horizontal line, do not cross, and are not horizontal.
+fn is_before(first: [DVec2; 2], second: [DVec2; 2]) -> bool {
     let upward = |[a, b]: [DVec2; 2]| if a.y <= b.y { [a, b] } else { [b, a] };
     let ([low1, high1], [low2, high2]) = (upward(first), upward(second));
     // Within the common range of heights the order is the same everywhere, so compare where one of them ends.
@@ -306,13 +302,7 @@ fn before_at(first: [DVec2; 2], second: [DVec2; 2]) -> Ordering {
         }
     };
     let left = if at_low == 0.0 { at_high() } else { at_low };
-    if left > 0.0 {
-        Ordering::Less
-    } else if left < 0.0 {
-        Ordering::Greater
-    } else {
-        Ordering::Equal
-    }
+    left > 0.0
 }
 
 fn overlap(a: &Rect, b: &Rect) -> bool {

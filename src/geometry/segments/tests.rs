@@ -69,6 +69,9 @@ proptest! {
         direction in (-3..4i32, -3..4i32),
     ) {
         let direction = DVec2::new(f64::from(direction.0), f64::from(direction.1));
+        // On both sides of the axes.
+        let segments: Vec<[DVec2; 2]> = segments.iter().map(|ends| ends.map(|end| end - 6.0)).collect();
+        let origin = origin - 6.0;
         let index = SegmentIndex::new(segments.iter().copied());
         let share = |[a, b]: [DVec2; 2]| {
             let cross = direction.perp_dot(b - a);
@@ -76,8 +79,10 @@ proptest! {
             let other = (a - origin).perp_dot(direction) / cross;
             (cross != 0.0 && share >= 0.0 && (0.0..=1.0).contains(&other)).then_some(share)
         };
-        let expected = segments.iter().filter_map(|&ends| share(ends)).min_by(f64::total_cmp);
-        prop_assert_eq!(index.first_hit(origin, direction, |_| true).map(|(_, share)| share), expected);
+        // The first of equals.
+        let hits = segments.iter().enumerate().filter_map(|(s, &ends)| Some((s, share(ends)?)));
+        let expected = hits.reduce(|best, next| if next.1 < best.1 { next } else { best });
+        prop_assert_eq!(index.first_hit(origin, direction, |_| true), expected);
     }
 
     /// A fan of segments that do not cross: what a point sees is what a loop over x at its height sees.
@@ -148,5 +153,28 @@ fn an_index_counts_its_segments() {
     for count in [0, 1, 9] {
         let index = SegmentIndex::new(vec![[DVec2::ZERO, DVec2::X]; count]);
         assert_eq!((index.len(), index.is_empty()), (count, count == 0));
+    }
+}
+
+#[test]
+fn a_segment_whose_box_is_flat_is_hit() {
+    for ends in [[(5.0, -1.0), (5.0, 3.0)], [(4.0, 1.0), (1.0, 1.0)]] {
+        let index = SegmentIndex::new([ends.map(DVec2::from)]);
+        let (s, share) = index.first_hit(DVec2::ZERO, DVec2::new(3.0, 1.0), |_| true).unwrap();
+        assert!(s == 0 && (share * 3.0 - 5.0).abs().min((share - 1.0).abs()) < 1e-15);
+    }
+}
+
+#[test]
+fn of_segments_that_share_their_lower_end_the_left_one_is_seen() {
+    let low = DVec2::new(1.0, 0.0);
+    for (left, right) in [(1.0, 1.0), (1.0, 3.0), (3.0, 1.0)] {
+        let fan = [[low, DVec2::new(0.5, left)], [low, DVec2::new(2.0, right)]];
+        for [first, second] in [[fan[0], fan[1]], [fan[1], fan[0]]] {
+            let Seen::Segment(s, _) = SegmentIndex::new([first, second]).right_of(DVec2::new(-1.0, 0.5)) else {
+                panic!("sees nothing")
+            };
+            assert_eq!([first, second][s], fan[0], "heights {left} and {right}");
+        }
     }
 }
