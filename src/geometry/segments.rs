@@ -176,23 +176,34 @@ impl SegmentIndex {
     /// The nearest segment among those that `accept` takes.
     pub fn nearest_where(&self, x: DVec2, accept: impl Fn(usize) -> bool) -> Option<(usize, f64)> {
         let mut best: Option<(usize, f64)> = None;
+        self.nearest_first(x, f64::INFINITY, |id, distance| {
+            let better = best.is_none_or(|(known, least)| distance < least || (distance == least && id < known));
+            if better && accept(id) {
+                best = Some((id, distance));
+            }
+            best.map_or(f64::INFINITY, |(_, least)| least)
+        });
+        best
+    }
+
+    /// Calls `visit` with segments at most `reach` from `x` and their distances, about the nearest first; it answers with
+    /// the reach from then on.
+    pub fn nearest_first(&self, x: DVec2, reach: f64, mut visit: impl FnMut(usize, f64) -> f64) {
+        let mut reach = reach;
         let mut stack = [(0u32, 0.0); DEPTH];
         let mut height = usize::from(!self.nodes.is_empty());
         while height > 0 {
             height -= 1;
             let (at, distance) = stack[height];
-            if best.is_some_and(|(_, least)| distance > least) {
+            if distance > reach {
                 continue;
             }
             let node = &self.nodes[at as usize];
             if node.from < node.to {
                 for item in &self.items[node.from as usize..node.to as usize] {
-                    let id = item.id as usize;
                     let distance = closest_on_segment(item.ends, x).distance(x);
-                    let better =
-                        best.is_none_or(|(known, least)| distance < least || (distance == least && id < known));
-                    if better && accept(id) {
-                        best = Some((id, distance));
+                    if distance <= reach {
+                        reach = visit(item.id as usize, distance);
                     }
                 }
             } else {
@@ -203,7 +214,6 @@ impl SegmentIndex {
                 height += 2;
             }
         }
-        best
     }
 
     /// What `x` sees along +x, decided exactly for segments that do not cross.

@@ -76,15 +76,16 @@ impl Spacing for Capped<'_> {
     fn at(&self, x: DVec2) -> f64 {
         let inner = self.inner.at(x);
         let mut least = self.c_b * inner;
-        // A cap farther away than that is above s whatever its slope.
-        let reach = (least - self.smallest) / self.t;
         let mut is_capped = false;
-        self.index.within(x, reach, |cap, _| {
+        // A cap farther away than that is above s whatever its slope.
+        let reach = |least: f64| (least - self.smallest) / self.t;
+        self.index.nearest_first(x, reach(least), |cap, _| {
             let size = self.caps[cap].at(x, self.t);
             if size < least {
                 least = size;
                 is_capped = true;
             }
+            reach(least)
         });
         if is_capped { least / self.c_b } else { inner }
     }
