@@ -167,6 +167,19 @@ fn scaled_from_a_millionth_to_a_million() {
     }
 }
 
+/// Found by `experiments/robustness.toml`: far from the origin distances of neighbours are rounded by more than the share that
+/// the certificate gives way by.
+#[test]
+fn far_from_the_origin() {
+    for entry in MESHERS {
+        for seed in [17, 27, 95] {
+            let name = format!("random-pslg:kind=moved,seed={seed}");
+            let pslg = gallery::pslg(&name).expect("a gallery name").expect("a gallery domain");
+            certified(entry, &pslg, "uniform:0.12", "moved");
+        }
+    }
+}
+
 #[test]
 fn a_power_of_two_changes_nothing_but_the_scale() {
     for entry in MESHERS {

@@ -34,12 +34,21 @@ pub struct Run {
 
 /// Runs cases that come in on standard input: what a worker does.
 pub fn work() -> Outcome {
+    // This very thread as rayon's only one: handing work to another costs more than small cases are worth. Where there are
+    // others already, they do as well.
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+    let _ = alone.build_global();
     worker::serve(std::io::stdin().lock(), std::io::stdout().lock()).map_err(Failure::input)
 }
 
 /// Runs what has no line yet, then writes the page and tells what was expected.
 pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
     let families = Family::all(&plan.batteries, plan.budget);
+    for family in &families {
+        family
+            .check()
+            .map_err(|problem| Failure::Input(format!("{}: {}: {problem}", plan.file.display(), family.name)))?;
+    }
     let parts: Vec<(&Family, Part)> = families
         .iter()
         .flat_map(|family| family.chunks().into_iter().map(move |part| (family, part)))

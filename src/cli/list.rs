@@ -27,6 +27,9 @@ pub fn run() -> Outcome {
             ));
         }
     }
+    for (name, about) in gallery::kinds() {
+        say(format_args!("    random-pslg:kind={name}  {about}"));
+    }
     say("  FILE.poly, FILE.geojson\n\nMeshers");
     for entry in MESHERS {
         say(format_args!("  {:<16} {}", entry.name, entry.summary));

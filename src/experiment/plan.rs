@@ -237,10 +237,11 @@ impl Plan {
     }
 
     /// The part that `--quick` runs: groups with a `quick` table, with its lists in place of theirs. The expected
-    /// number of cells a domain is dropped, since it speaks of the whole plan.
+    /// number of cells a domain and share of declined cases are dropped, since they speak of the whole plan.
     pub fn into_quick(mut self) -> Self {
         self.name.push_str("-quick");
         self.expect.measured_per_domain.clear();
+        self.expect.declined_share = None;
         self.groups = self.groups.into_iter().filter_map(Group::into_quick).collect();
         self.batteries = self.batteries.into_iter().filter_map(Battery::into_quick).collect();
         self

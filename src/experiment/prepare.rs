@@ -287,7 +287,7 @@ fn told(domain: &Domain) -> impl Fn(SpacingError) -> PrepareError + use<> {
 
 /// Puts the domain's box into a spacing: `{x0}`, `{y0}` its lower left corner, `{w}`, `{h}` its width and height. One
 /// text can then stand for domains of any size.
-fn fill_in(spacing: &str, domain: &Domain) -> String {
+pub(super) fn fill_in(spacing: &str, domain: &Domain) -> String {
     let (corner, size) = (domain.bounds().min, domain.bounds().size());
     [("{x0}", corner.x), ("{y0}", corner.y), ("{w}", size.x), ("{h}", size.y)]
         .iter()

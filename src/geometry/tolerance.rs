@@ -5,8 +5,8 @@
 /// millionth of the domain and is far below anything that shows in a mesh.
 pub const CERTIFICATE: f64 = 1e-9;
 
-/// Certificate: the distance of two centres may fall short of the sum of their packing radii by so many ulp of their
-/// coordinates (an ulp being [`f64::EPSILON`] of the larger). What rounding can take, proved: a centre that is an
+/// Certificate: the distance of two centres may fall short of the sum of their packing radii, or be beyond the bounds of nn,
+/// by so many ulp of their coordinates (an ulp being [`f64::EPSILON`] of the larger). What rounding can take, proved: a centre that is an
 /// intersection of circles is one sum of two vectors, each axis rounded by half an ulp, which moves it by √½; one on a
 /// segment is start + (end − start) / length · position, at most 5 in all since no side exceeds twice the largest
 /// coordinate. Two values of f, which Lemma 5.4 compares, are each off by 1.5 ulp of a distance of at most 2√2 of that

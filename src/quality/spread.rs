@@ -5,7 +5,7 @@ use super::subject::{Sizes, Subject};
 use super::tally::{Tally, Worst};
 use super::{Check, parallel};
 use crate::geometry::DVec2;
-use crate::geometry::tolerance::CERTIFICATE;
+use crate::geometry::tolerance::{CENTRE_ULPS, CERTIFICATE};
 use std::f64::consts::{PI, TAU};
 
 /// `nn-vertex-lower`, `nn-vertex-upper`, `nn-point-lower`, `nn-point-upper` and, with an integral, `vertices-lower` and
@@ -23,8 +23,20 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> Vec<Check> {
         high: upper((3.0 - t) * c_b / ((1.0 - t) * (1.0 - t))),
     };
     let points = &subject.mesh.points;
-    let at_vertices = vertex.measure(points.len(), |k| Some((sizes.nn[k] / sizes.at_vertex[k], points[k])));
-    let nn = |x: DVec2, f: f64| Some((sizes.circles.second_nearest(x) / f, x));
+    let at_vertices = vertex.measure(points.len(), |k| {
+        Some(Sample {
+            nn: sizes.nn[k],
+            f: sizes.at_vertex[k],
+            at: points[k],
+        })
+    });
+    let nn = |at: DVec2, f: f64| {
+        Some(Sample {
+            nn: sizes.circles.second_nearest(at),
+            f,
+            at,
+        })
+    };
     let at_midpoints = point.measure(subject.adjacency.edges().len(), |e| {
         nn(subject.midpoint(e), sizes.at_midpoint[e])
     });
@@ -45,6 +57,13 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> Vec<Check> {
     checks
 }
 
+/// nn and f at a point.
+struct Sample {
+    nn: f64,
+    f: f64,
+    at: DVec2,
+}
+
 /// A claim that low ≤ nn / f ≤ high.
 struct Between {
     low: f64,
@@ -52,13 +71,16 @@ struct Between {
 }
 
 impl Between {
-    /// The worst on either side over `count` places, some of which have no ratio.
-    fn measure(&self, count: usize, ratio: impl Fn(usize) -> Option<(f64, DVec2)> + Sync) -> [Tally; 2] {
+    /// The worst on either side over `count` places, some of which have none.
+    fn measure(&self, count: usize, sample: impl Fn(usize) -> Option<Sample> + Sync) -> [Tally; 2] {
         let parts = parallel::map_ranges(count, |range| {
             let (mut lower, mut upper) = (Tally::new(Worst::Smallest), Tally::new(Worst::Largest));
-            for (ratio, at) in range.filter_map(&ratio) {
-                lower.see(ratio, at, ratio < self.low * (1.0 - CERTIFICATE));
-                upper.see(ratio, at, ratio > self.high * (1.0 + CERTIFICATE));
+            for Sample { nn, f, at } in range.filter_map(&sample) {
+                let ratio = nn / f;
+                // nn is a distance of two centres, and f is compared with that: as for packing circles.
+                let rounding = CENTRE_ULPS * f64::EPSILON * at.abs().max_element() / f;
+                lower.see(ratio, at, ratio < self.low * (1.0 - CERTIFICATE) - rounding);
+                upper.see(ratio, at, ratio > self.high * (1.0 + CERTIFICATE) + rounding);
             }
             (lower, upper)
         });

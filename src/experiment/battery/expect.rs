@@ -89,3 +89,58 @@ fn declined(tally: &Tally, most: f64) -> Finding {
         holds: share <= most,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    fn chunk(family: &str, cases: &[(Verdict, u64)]) -> Chunk {
+        let mut chunk = Chunk::new(family, family, vec!["biting".into()]);
+        chunk.tallies[0].cases = BTreeMap::from_iter(cases.iter().copied());
+        chunk
+    }
+
+    fn holds(expect: &Expectations, chunks: &[Chunk]) -> Vec<bool> {
+        findings(expect, chunks).iter().map(|finding| finding.holds).collect()
+    }
+
+    #[test]
+    fn each_expectation_breaks_by_its_own_cases() {
+        let expect = Expectations {
+            panicked: Some(0),
+            hung: Some(0),
+            invalid: Some(0),
+            declined_share: Some(0.01),
+            skipped_families: Some(0),
+            ..Expectations::default()
+        };
+        let good = chunk(
+            "a",
+            &[(Verdict::Certified, 99), (Verdict::Declined, 1), (Verdict::Stopped, 0)],
+        );
+        assert_eq!(holds(&expect, std::slice::from_ref(&good)), [true; 5]);
+        for (place, verdict) in [Verdict::Panicked, Verdict::Hung, Verdict::Invalid]
+            .into_iter()
+            .enumerate()
+        {
+            let mut wanted = [true; 5];
+            wanted[place] = false;
+            assert_eq!(
+                holds(&expect, &[good.clone(), chunk("b", &[(verdict, 1)])]),
+                wanted,
+                "{verdict:?}"
+            );
+        }
+        // What is refused is no valid domain, so it does not make the share smaller.
+        let refused = chunk("b", &[(Verdict::Declined, 1), (Verdict::Refused, 1000)]);
+        assert_eq!(
+            holds(&expect, &[good.clone(), refused]),
+            [true, true, true, false, true]
+        );
+        let mut skipped = chunk("b", &[]);
+        skipped.skipped = Some("not there".into());
+        assert_eq!(holds(&expect, &[good, skipped]), [true, true, true, true, false]);
+        assert!(findings(&Expectations::default(), &[]).is_empty());
+    }
+}

@@ -2,11 +2,15 @@
 
 use crate::experiment::plan::{Battery, CellBudget, Method};
 use crate::experiment::record::Cell;
+use crate::experiment::runner;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::path::Path;
+
+/// One domain in so many has its ∫ dA / f² found: on small domains that takes longer than all else together.
+const INTEGRAL_EVERY: usize = 10;
 
 /// Cases that are written as one line.
 const CASES_PER_CHUNK: usize = 500;
@@ -18,6 +22,8 @@ pub struct Case {
     pub cell: Cell,
     /// Its limits.
     pub budget: Limits,
+    /// Whether ∫ dA / f² is found, and with it the bounds on the number of vertices and the number of triangles to expect.
+    pub integral: bool,
 }
 
 /// Limits of a case.
@@ -155,6 +161,14 @@ impl Family {
             .collect()
     }
 
+    /// What is wrong with a method that the plan names, if something is.
+    pub fn check(&self) -> Result<(), String> {
+        let methods = 0..self.battery.methods.len().min(self.cases());
+        methods
+            .map(|number| runner::mesher(&self.case(number).cell))
+            .try_for_each(|mesher| mesher.map(|_| ()))
+    }
+
     /// The case of that number. Spacing, t and c_b are drawn, each from its list, by family and number.
     pub fn case(&self, number: usize) -> Case {
         let Battery {
@@ -184,6 +198,7 @@ impl Family {
                 timed: false,
             },
             budget: self.limits,
+            integral: seed.is_multiple_of(INTEGRAL_EVERY),
         }
     }
 
@@ -234,4 +249,79 @@ fn fingerprint(text: &str) -> u64 {
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn battery(text: &str) -> Battery {
+        let common = r#"
+            families = ["fan"]
+            methods = [{ mesher = "biting", params = { order = "fifo" } }, { mesher = "quadtree-mis" }]
+            spacings = ["lfs", "expr:0.1*({w} + {h})"]
+            t = [0.25, "1/3"]
+            c_b = [0.5, 0.75]
+        "#;
+        toml::from_str(&format!("{common}{text}")).expect("a battery")
+    }
+
+    #[test]
+    fn a_case_is_a_function_of_family_and_number() {
+        let drawn = battery("domain = \"random-pslg:kind={family},seed={seed}\"\ndomains = 600");
+        let family = &Family::all(&[drawn], CellBudget::default())[0];
+        assert_eq!((family.cases(), family.chunks().len()), (1200, 3));
+        assert_eq!(family.chunks()[2].end, 1200);
+        let (first, fifth) = (family.case(0), family.case(5));
+        assert_eq!((&first, &fifth), (&family.case(0), &family.case(5)));
+        assert_eq!(first.method(), "biting order=fifo");
+        assert_eq!(
+            (fifth.method(), fifth.cell.domain),
+            ("quadtree-mis".into(), "random-pslg:kind=fan,seed=2".into())
+        );
+        let drawn: Vec<Cell> = (0..60).map(|number| family.case(number).cell).collect();
+        for t in [0.25, 1.0 / 3.0] {
+            for c_b in [0.5, 0.75] {
+                for spacing in ["lfs", "expr:0.1*({w} + {h})"] {
+                    let is_so = |cell: &&Cell| cell.t == t && cell.c_b == c_b && cell.spacing == spacing;
+                    assert!(drawn.iter().any(|cell| is_so(&cell)), "{t} {c_b} {spacing}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_command_is_quoted_for_a_shell() {
+        let drawn = battery("domain = \"random-pslg:kind={family},seed={seed}\"\ndomains = 1");
+        let mut case = Family::all(&[drawn], CellBudget::default())[0].case(0);
+        case.cell.domain = "it's.poly".into();
+        case.cell.spacing = "expr:0.1*({w} + {h})".into();
+        let Cell { t, c_b, .. } = case.cell;
+        let wanted = format!(
+            "biting mesh 'it'\\''s.poly' --mesher biting --param order=fifo --spacing 'expr:0.1*({{w}} + {{h}})' --t {t} --c-b {c_b} \
+             --max-seconds 120"
+        );
+        assert_eq!(case.command(), wanted);
+    }
+
+    #[test]
+    fn a_folder_is_listed_by_name_and_missed_where_it_is_not_there() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for name in ["b.poly", "a.geojson", "c.txt"] {
+            std::fs::write(folder.path().join(name), "").expect("written");
+        }
+        let place = folder.path().display();
+        let families = Family::all(&[battery(&format!("folder = \"{place}\""))], CellBudget::default());
+        assert_eq!((families[0].domains(), &families[0].missing), (2, &None));
+        assert!(families[0].case(0).cell.domain.ends_with("a.geojson"));
+        let missing = battery("folder = \"no/such/{family}\"\nfetch = \"get it\"");
+        let families = Family::all(&[missing], CellBudget::default());
+        assert!(
+            families[0]
+                .missing
+                .as_deref()
+                .is_some_and(|told| told.contains("get it"))
+        );
+        assert_eq!((families[0].cases(), families[0].chunks().len()), (0, 1));
+    }
 }

@@ -1,16 +1,23 @@
 //! One case run and judged.
 
 use super::family::Case;
-use crate::domain::gallery;
+use crate::domain::{self, Domain, gallery};
 use crate::experiment::ending::guarded;
 use crate::experiment::measure;
-use crate::experiment::prepare::{PrepareError, Prepared, Store};
+use crate::experiment::prepare::fill_in;
 use crate::experiment::runner::{self, VERTICES_PER_BUDGET_TRIANGLE};
-use crate::meshers::{Budget, MeshError, Request};
-use crate::quality::{self, Check};
-use crate::spacing::estimate_triangles;
+use crate::mesh::Mesh;
+use crate::meshers::{Budget, MeshError, Request, Trace};
+use crate::quality::{self, Bounds, Check};
+use crate::spacing::{self, Integral, Options, SpacingError, estimate_triangles};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
+
+/// Relative error asked of the integral that bounds the number of vertices, and foretells that of triangles.
+const INTEGRAL_ERROR: f64 = 0.02;
+
+/// Memory a worker may use, bytes; above it a mesher is stopped.
+const MOST_MEMORY: u64 = 3_000_000_000;
 
 /// How a case ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -79,18 +86,16 @@ pub fn run(case: &Case) -> Trial {
     }
 }
 
-fn attempt(case: &Case) -> Result<Trial, (Verdict, String)> {
+/// Why there is no mesh.
+type NoMesh = (Verdict, String);
+
+fn attempt(case: &Case) -> Result<Trial, NoMesh> {
     let cell = &case.cell;
-    let prepared = Store::new(None, false)
-        .prepare_for_t(cell)
-        .map_err(|error| match error {
-            PrepareError::Domain(_) => (Verdict::Refused, error.to_string()),
-            PrepareError::Spacing { .. } => (Verdict::Declined, error.to_string()),
-        })?;
-    let (expected, most) = (
-        estimate_triangles(prepared.integral.value, cell.c_b),
-        case.budget.triangles,
-    );
+    let site = Site::new(case)?;
+    let most = case.budget.triangles;
+    let expected = site
+        .integral
+        .map_or(0.0, |integral| estimate_triangles(integral.value, cell.c_b));
     if expected > most {
         let reason = format!("about {expected:.0} triangles expected, above the budget of {most}");
         return Err((Verdict::Stopped, reason));
@@ -104,15 +109,16 @@ fn attempt(case: &Case) -> Result<Trial, (Verdict, String)> {
         budget: Budget {
             max_vertices: Some((VERTICES_PER_BUDGET_TRIANGLE * most) as usize),
             max_seconds: Some(case.budget.seconds),
-            max_memory: None,
+            max_memory: Some(MOST_MEMORY),
         },
     };
-    let run = measure::run(&prepared, &*mesher, &request).map_err(|error| match error {
+    let made = mesher.mesh(&site.domain, &*site.spacing.function, &request, &mut Trace::default());
+    let mesh = made.map_err(|error| match error {
         MeshError::Budget { .. } => (Verdict::Stopped, error.to_string()),
         _ => declined(error.to_string()),
     })?;
-    let guaranteed = entry.guaranteed(&cell.params, &prepared.site.domain, &*prepared.spacing, cell.c_b);
-    let broken = broken(&prepared, case, &guaranteed, &run.mesh);
+    let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*site.spacing.function, cell.c_b);
+    let broken = site.broken(cell.c_b, &guaranteed, &mesh);
     Ok(Trial {
         verdict: if broken.is_none() {
             Verdict::Certified
@@ -120,24 +126,55 @@ fn attempt(case: &Case) -> Result<Trial, (Verdict, String)> {
             Verdict::Invalid
         },
         reason: broken,
-        triangles: run.mesh.triangles.len(),
-        fingerprint: measure::fingerprint(&run.mesh),
+        triangles: mesh.triangles.len(),
+        fingerprint: measure::fingerprint(&mesh),
         discarded: 0,
         seconds: 0.0,
     })
 }
 
-/// The guaranteed checks that a mesh breaks, in words.
-fn broken(prepared: &Prepared, case: &Case, guaranteed: &[&str], mesh: &crate::mesh::Mesh) -> Option<String> {
-    let bounds = prepared.bounds(case.cell.c_b, guaranteed);
-    let (_, certificate) = quality::judge(&prepared.site.domain, mesh, Some(&bounds));
-    let told = |check: &Check| {
-        let number = |value: Option<f64>| value.map_or_else(|| "nothing".into(), |value| value.to_string());
-        let place = check.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
-        let (worst, bound) = (number(check.worst), number(check.bound));
-        format!("{}: {worst} where {bound} is the bound{place}", check.claim)
-    };
-    let checks = certificate.checks.iter().filter(|check| check.applies && !check.holds);
-    let broken: Vec<String> = checks.map(told).collect();
-    (!broken.is_empty()).then(|| broken.join("; "))
+/// Domain and spacing, as for the cells of a sweep; its integral where asked for, to fewer digits.
+struct Site {
+    domain: Domain,
+    spacing: spacing::Prepared,
+    integral: Option<Integral>,
+}
+
+impl Site {
+    fn new(case: &Case) -> Result<Self, NoMesh> {
+        let cell = &case.cell;
+        let domain = domain::load(&cell.domain).map_err(|error| (Verdict::Refused, error.to_string()))?;
+        let declined = |error: SpacingError| (Verdict::Declined, error.to_string());
+        let spec = fill_in(&cell.spacing, &domain);
+        let spacing = spacing::build(&spec, &domain, &Options::new(cell.t, cell.c_b)).map_err(declined)?;
+        let integrate = || spacing::integrate(&*spacing.function, &domain, INTEGRAL_ERROR);
+        let integral = case.integral.then(integrate).transpose().map_err(declined)?;
+        Ok(Self {
+            domain,
+            spacing,
+            integral,
+        })
+    }
+
+    /// The guaranteed checks that a mesh breaks, in words.
+    fn broken(&self, c_b: f64, guaranteed: &[&str], mesh: &Mesh) -> Option<String> {
+        let bounds = Bounds {
+            spacing: &*self.spacing.function,
+            c_b,
+            lfs_cap: self.spacing.lfs_cap,
+            integral: self.integral.map(|integral| integral.value),
+            integral_error: self.integral.map_or(0.0, |integral| integral.error),
+            guaranteed,
+        };
+        let (_, certificate) = quality::judge(&self.domain, mesh, Some(&bounds));
+        let told = |check: &Check| {
+            let number = |value: Option<f64>| value.map_or_else(|| "nothing".into(), |value| value.to_string());
+            let place = check.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
+            let (worst, bound) = (number(check.worst), number(check.bound));
+            format!("{}: {worst} where {bound} is the bound{place}", check.claim)
+        };
+        let checks = certificate.checks.iter().filter(|check| check.applies && !check.holds);
+        let broken: Vec<String> = checks.map(told).collect();
+        (!broken.is_empty()).then(|| broken.join("; "))
+    }
 }

@@ -13,8 +13,8 @@ use std::time::Duration;
 /// A case hangs when it has taken so many times the seconds that its mesher may take, …
 const HUNG_AFTER: f64 = 5.0;
 
-/// … and this many seconds for domain, spacing and certificate, which have no budget.
-const HUNG_SECONDS: f64 = 20.0;
+/// … and so long for domain, spacing and certificate, which have no budget.
+const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Runs the cases that come in, one a line, until there are no more.
 ///
@@ -34,6 +34,7 @@ pub fn serve(input: impl BufRead, mut output: impl Write) -> io::Result<()> {
 #[derive(Debug)]
 pub struct Worker {
     command: (PathBuf, Vec<String>),
+    patience: Duration,
     process: Option<Process>,
 }
 
@@ -58,6 +59,7 @@ impl Worker {
         let arguments = arguments.iter().map(|&argument| argument.to_owned()).collect();
         Self {
             command: (program, arguments),
+            patience: PATIENCE,
             process: None,
         }
     }
@@ -67,7 +69,7 @@ impl Worker {
     /// # Errors
     /// If no process can be started.
     pub fn run(&mut self, case: &Case) -> io::Result<Trial> {
-        let most = Duration::from_secs_f64(HUNG_AFTER * case.budget.seconds + HUNG_SECONDS);
+        let most = Duration::from_secs_f64(HUNG_AFTER * case.budget.seconds) + self.patience;
         let mut process = match self.process.take() {
             Some(process) => process,
             None => self.start()?,
@@ -83,7 +85,7 @@ impl Worker {
                 trial
             }
             Err(RecvTimeoutError::Timeout) => {
-                let reason = format!("not done after {:.0} seconds", most.as_secs_f64());
+                let reason = format!("not done after {} seconds", most.as_secs_f64());
                 Trial::without_mesh(Verdict::Hung, reason)
             }
             Err(RecvTimeoutError::Disconnected) => {
@@ -96,8 +98,6 @@ impl Worker {
     fn start(&self) -> io::Result<Process> {
         let mut child = Command::new(&self.command.0)
             .args(&self.command.1)
-            // Cases run side by side, so each has one thread.
-            .env("RAYON_NUM_THREADS", "1")
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             // What a panic says comes with the answer.
@@ -115,5 +115,80 @@ impl Worker {
             }
         });
         Ok(Process { child, cases, answers })
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::super::family::Limits;
+    use super::*;
+    use crate::experiment::record::Cell;
+
+    fn case() -> Case {
+        Case {
+            cell: Cell {
+                domain: "random-pslg:kind=fan,seed=1".into(),
+                mesher: "biting".into(),
+                params: serde_json::Map::new(),
+                spacing: "lfs".into(),
+                t: 0.25,
+                c_b: 0.75,
+                seed: 0,
+                lfs_cap: true,
+                triangles: None,
+                timed: false,
+            },
+            budget: Limits {
+                triangles: 1e4,
+                seconds: 0.01,
+            },
+            integral: true,
+        }
+    }
+
+    fn shell(script: &str) -> Worker {
+        Worker {
+            patience: Duration::from_millis(500),
+            ..Worker::new("sh".into(), &["-c", script])
+        }
+    }
+
+    #[test]
+    fn a_case_that_is_served_is_certified_and_repeats() {
+        let line = serde_json::to_string(&case()).expect("JSON") + "\n";
+        let mut answers = Vec::new();
+        serve(line.repeat(2).as_bytes(), &mut answers).expect("served");
+        let trials: Vec<Trial> = String::from_utf8_lossy(&answers)
+            .lines()
+            .map(|line| serde_json::from_str(line).expect("a trial"))
+            .collect();
+        assert_eq!((trials.len(), trials[0].verdict), (2, Verdict::Certified), "{trials:?}");
+        assert!(trials[0].triangles > 0 && trials[0].fingerprint == trials[1].fingerprint);
+        assert!(serve(&b"no case\n"[..], &mut answers).is_err());
+    }
+
+    #[test]
+    fn a_process_that_dies_is_a_panic_and_is_replaced() {
+        let mut worker = shell("read case; kill -ABRT $$");
+        for _ in 0..2 {
+            let trial = worker.run(&case()).expect("a process");
+            let reason = trial.reason.unwrap_or_default();
+            assert_eq!(trial.verdict, Verdict::Panicked);
+            assert!(reason.contains("signal: 6"), "{reason}");
+        }
+    }
+
+    #[test]
+    fn a_process_that_never_answers_hangs_and_is_replaced() {
+        let mut worker = shell("read case; while :; do sleep 1; done");
+        for _ in 0..2 {
+            let trial = worker.run(&case()).expect("a process");
+            assert_eq!(trial.verdict, Verdict::Hung, "{trial:?}");
+        }
+    }
+
+    #[test]
+    fn a_program_that_is_not_there_is_an_error() {
+        assert!(Worker::new("no/such/program".into(), &[]).run(&case()).is_err());
     }
 }

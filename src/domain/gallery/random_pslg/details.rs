@@ -168,18 +168,17 @@ pub(super) fn network(draft: &mut Draft) {
     net(draft, &points);
 }
 
-/// The same with points of a grid: collinear, cocircular, parallel.
+/// The same with points of a grid: collinear, cocircular, parallel, all of it exactly.
 pub(super) fn lattice(draft: &mut Draft) {
-    let side = draft.count(2, 5) as f64;
-    let rim = |k: usize| k as f64 / side;
-    let steps = side as usize;
-    let mut ring: Vec<DVec2> = (0..steps).map(|k| DVec2::new(rim(k), 0.0)).collect();
-    ring.extend((0..steps).map(|k| DVec2::new(1.0, rim(k))));
-    ring.extend((0..steps).map(|k| DVec2::new(1.0 - rim(k), 1.0)));
-    ring.extend((0..steps).map(|k| DVec2::new(0.0, 1.0 - rim(k))));
+    let side = draft.count(2, 5);
+    let at = |x: usize, y: usize| DVec2::new(x as f64, y as f64);
+    let mut ring: Vec<DVec2> = (0..side).map(|k| at(k, 0)).collect();
+    ring.extend((0..side).map(|k| at(side, k)));
+    ring.extend((0..side).map(|k| at(side - k, side)));
+    ring.extend((0..side).map(|k| at(0, side - k)));
     draft.ring(&ring);
     let points: Vec<DVec2> = (0..draft.count(2, 8))
-        .map(|_| DVec2::new(rim(draft.count(1, steps)), rim(draft.count(1, steps))))
+        .map(|_| at(draft.count(1, side), draft.count(1, side)))
         .collect();
     net(draft, &points);
 }

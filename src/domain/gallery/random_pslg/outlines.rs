@@ -142,8 +142,10 @@ pub(super) fn cocircular(draft: &mut Draft) {
     let count = draft.count(3, 16);
     let rings = draft.count(1, 3);
     let corner = |radius: f64, k: usize| radius * DVec2::from_angle(TAU * k as f64 / count as f64);
+    // A ring lies within the next, whose sides come as near to the centre as the cosine says.
+    let shrink = draft.number(0.3, 0.95) * (PI / count as f64).cos();
     for ring in 0..rings {
-        let radius = 1.0 - 0.3 * ring as f64;
+        let radius = shrink.powi(ring as i32);
         let points: Vec<DVec2> = (0..count).map(|k| corner(radius, k)).collect();
         draft.ring(&points);
     }
