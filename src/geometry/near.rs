@@ -330,7 +330,7 @@ mod tests {
     #[test]
     fn discs_are_open_and_counted() {
         let mut grid = DiscGrid::new(0.0);
-        assert!(grid.is_empty() && grid.len() == 0);
+        assert_eq!((grid.is_empty(), grid.len()), (true, 0));
         let discs = [0.0, 4.0].map(|x| Disc {
             centre: DVec2::new(x, 0.0),
             radius: 1.0,
