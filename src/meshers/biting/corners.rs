@@ -202,17 +202,7 @@ impl<'a> Plan<'a> {
         let mut caps = Vec::new();
         for (v, fan) in &self.fans {
             let (vertex, distance) = (self.domain.vertices()[*v], self.distances[*v]);
-            for wedge in inside(self.domain, *v).filter(|wedge| is_small(wedge)) {
-                let ways = [wedge.from, wedge.to].map(|s| self.domain.away(s, *v));
-                let slope = SHARE * 2.0 * (0.5 * wedge.angle).sin();
-                caps.extend(ways.map(|(direction, _)| Cap {
-                    start: vertex + direction * distance,
-                    direction,
-                    length: ways[0].1.min(ways[1].1) - distance,
-                    size: slope * distance,
-                    slope,
-                }));
-            }
+            caps.extend(self.beside(*v, distance));
             if fan.edges.len() > 1 {
                 caps.extend(fan.edges.iter().flat_map(|edge| {
                     edge.ends
@@ -224,6 +214,37 @@ impl<'a> Plan<'a> {
             let [a, b] = self.ends(s);
             let half = 0.5 * a.distance(b);
             caps.extend([Cap::point(a, half), Cap::point(b, half)]);
+        }
+        caps
+    }
+
+    /// The caps along segments at `v` that face each other at less than 90°: neighbours, and beyond the ends of shorter ones
+    /// between them others too.
+    fn beside(&self, v: usize, distance: f64) -> Vec<Cap> {
+        let (domain, wedges) = (self.domain, self.domain.wedges(v));
+        let vertex = domain.vertices()[v];
+        let mut caps = Vec::new();
+        for first in 0..wedges.len() {
+            let (one, length) = domain.away(wedges[first].from, v);
+            let (mut angle, mut near) = (0.0, distance);
+            for wedge in wedges.iter().cycle().skip(first).take(wedges.len()) {
+                angle += wedge.angle;
+                if !wedge.inside || angle.to_degrees() >= 90.0 - RIGHT_ANGLE_DEG || near >= length {
+                    break;
+                }
+                let (other, far) = domain.away(wedge.to, v);
+                let (far, slope) = (far.min(length), SHARE * 2.0 * (0.5 * angle).sin());
+                if far > near {
+                    caps.extend([one, other].map(|direction| Cap {
+                        start: vertex + direction * near,
+                        direction,
+                        length: far - near,
+                        size: slope * near,
+                        slope,
+                    }));
+                    near = far;
+                }
+            }
         }
         caps
     }
