@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::domain::gallery;
-use crate::meshers::Budget;
+use crate::meshers::{Budget, Parameters};
 use crate::quality::{Bounds, judge};
 use crate::spacing::{Options, build};
 use proptest::prelude::*;
@@ -250,4 +250,40 @@ fn corners_of_random_polygons_are_cut_off_and_given_back() {
             "{name}: {degrees:?}"
         );
     }
+}
+
+/// Certifies the default of a domain with corners of every kind, by name, spacing and pair.
+fn keeps_its_bounds(name: &str, spec: &str, t: f64, c_b: f64) {
+    let domain = gallery::domain(name).expect("a gallery name").expect("a valid domain");
+    let prepared = build(spec, &domain, &Options::new(t, c_b)).expect("a spacing");
+    let spacing = &*prepared.function;
+    let mesh = Biting::default()
+        .mesh(&domain, spacing, &request(c_b), &mut Trace::default())
+        .expect("a mesh");
+    let bounds = Bounds {
+        spacing,
+        c_b,
+        lfs_cap: prepared.lfs_cap,
+        integral: None,
+        integral_error: 0.0,
+        guaranteed: &ENTRY.guaranteed(&Parameters::new(), &domain, spacing, c_b),
+    };
+    let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
+    assert!(certificate.check("min-angle-beyond-corners").expect("a check").applies);
+    let broken: Vec<_> = certificate.checks.iter().filter(|c| c.applies && !c.holds).collect();
+    assert!(broken.is_empty(), "{name}: {broken:?}");
+}
+
+#[test]
+fn found_cases_keep_their_bounds() {
+    // Two segments of a fan face each other beyond the end of a shorter one between them.
+    keeps_its_bounds("random-pslg:kind=fan,seed=500", "expr:0.1", 0.25, 0.25);
+    // A notch of 15° whose sides are 1e-6 long, where coordinates are 0.5.
+    keeps_its_bounds("random-simple:n=67,seed=150", "lfs", 0.25, 0.25);
+    // A vertex of a notch is seen by the circle across it, the segment behind is not.
+    keeps_its_bounds("random-simple:n=77,seed=92", "lfs", 0.25, 0.75);
+    // Fans between notches of one vertex.
+    keeps_its_bounds("random-pslg:kind=fan,seed=4", "lfs", 0.25, 0.75);
+    // Circles of a segment's ends that meet low, where c_b + t is above 1.
+    keeps_its_bounds("l-shape", "lfs", 0.25, 1.0);
 }
