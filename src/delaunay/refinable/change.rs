@@ -81,16 +81,16 @@ impl Refinable {
     pub fn split(&mut self, piece: u32, share: f64) -> Option<u32> {
         let x = self.point_on(piece, share);
         let edge = self.pieces[piece as usize].edge;
-        for side in [edge, self.twin[edge as usize]] {
-            if side != NONE && !self.can_split(side, x) {
-                if self.is_inside(side / 3) {
-                    return None;
-                }
-                self.drop_outside(side / 3);
-            }
-        }
-        let edge = self.pieces[piece as usize].edge;
         let twin = self.twin[edge as usize];
+        let turned = [edge, twin].map(|side| side != NONE && !self.can_split(side, x));
+        if [edge, twin]
+            .into_iter()
+            .zip(turned)
+            .any(|(side, turned)| turned && self.is_inside(side / 3))
+        {
+            return None;
+        }
+        self.has_overturned |= turned.contains(&true);
         let (vertex, behind) = (self.points.len() as u32, self.pieces.len() as u32);
         self.points.push(x);
         self.out.push(NONE);
@@ -136,29 +136,6 @@ impl Refinable {
         predicates::orient2d(a, x, c) > 0.0 && predicates::orient2d(x, b, c) > 0.0
     }
 
-    /// Takes an outside triangle away. It is a sliver of rounding errors, such as one between the convex hull and points of
-    /// one side that a rotation has left not quite on a line, and would turn over if the piece on it were split.
-    fn drop_outside(&mut self, triangle: u32) {
-        self.dropped += 1;
-        self.unused.push(triangle);
-        for edge in 3 * triangle..3 * triangle + 3 {
-            let (twin, piece) = (self.twin[edge as usize], self.piece_of[edge as usize]);
-            if twin != NONE {
-                self.twin[twin as usize] = NONE;
-                self.out[self.origin[twin as usize] as usize] = twin;
-                self.out[self.origin[edge as usize] as usize] = following(twin);
-                if piece != NONE {
-                    self.pieces[piece as usize].edge = twin;
-                }
-            }
-        }
-        for edge in 3 * triangle..3 * triangle + 3 {
-            self.origin[edge as usize] = NONE;
-            self.twin[edge as usize] = NONE;
-            self.piece_of[edge as usize] = NONE;
-        }
-    }
-
     /// Halves the triangle of a half-edge a b at a vertex on it; returns the half-edges a x and x b, not yet linked.
     fn halve(&mut self, edge: u32, vertex: u32) -> [u32; 2] {
         let (old, far) = (edge / 3, following(edge));
@@ -180,7 +157,7 @@ impl Refinable {
     pub(super) fn legalise(&mut self, mut todo: Vec<u32>) {
         while let Some(edge) = todo.pop() {
             let twin = self.twin[edge as usize];
-            if twin == NONE || self.piece_of[edge as usize] != NONE {
+            if twin == NONE || self.piece_of[edge as usize] != NONE || self.is_overturned([edge, twin]) {
                 continue;
             }
             if self.circle_holds(edge / 3, self.point(self.apex(twin))) {
@@ -192,6 +169,15 @@ impl Refinable {
         }
         self.changed.sort_unstable();
         self.changed.dedup();
+    }
+
+    /// Whether one of two triangles on a common edge is an outside one that a split has turned over.
+    fn is_overturned(&self, edges: [u32; 2]) -> bool {
+        let is_turned = |edge: u32| {
+            let [a, b] = self.ends(edge).map(|vertex| self.point(vertex));
+            predicates::orient2d(a, b, self.point(self.apex(edge))) <= 0.0
+        };
+        self.has_overturned && !self.is_inside(edges[0] / 3) && edges.into_iter().any(is_turned)
     }
 
     /// Turns the diagonal a b of the quadrilateral a d b c into c d: its triangles are then (d, b, c) and (c, a, d).

@@ -6,7 +6,9 @@
 //!
 //! A piece is split by topology: its two triangles become four, whichever side of the line rounding put the point on. Where
 //! one of the four would not be counter-clockwise, the split is refused if that one is in the domain, so an invalid mesh cannot
-//! arise; outside, the triangle is taken away first.
+//! arise. Outside, it stays as it is: a sliver of rounding errors, such as one between the convex hull and points of one side that a
+//! rotation has left not quite on a line. No flip touches it, and since nothing is taken away, the triangles around a vertex
+//! stay connected.
 
 mod change;
 mod collect;
@@ -43,8 +45,8 @@ pub struct Refinable {
     pieces: Vec<Span>,
     /// Triangles that are no more, to be used again.
     unused: Vec<u32>,
-    /// Outside slivers taken away so that pieces could be split.
-    dropped: usize,
+    /// Whether splits of pieces have turned triangles outside over.
+    has_overturned: bool,
     /// Triangles made or altered by the last change.
     changed: Vec<u32>,
 }
@@ -128,7 +130,7 @@ impl Refinable {
             inside: domain.faces().iter().map(|face| face.inside).collect(),
             pieces: Vec::with_capacity(pieces.len()),
             unused: Vec::new(),
-            dropped: 0,
+            has_overturned: false,
             changed: Vec::new(),
         };
         for face in start.cdt.inner_faces() {

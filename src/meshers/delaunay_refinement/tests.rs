@@ -300,3 +300,16 @@ proptest! {
         prop_assert_eq!(skinny(&mesh, angle) as f64, left);
     }
 }
+
+/// Found by the robustness experiment: vertices nearly on one line leave slivers outside, which splits of pieces turn over.
+#[test]
+fn sides_all_but_straight_can_be_split_again_and_again() {
+    let domain = domain("random-pslg:kind=divided,seed=880");
+    let spacing = build("lfs", &domain, &Options::new(0.25, 0.75))
+        .expect("a spacing")
+        .function;
+    let request = Request { c_b: 0.75, ..request() };
+    let mesh = DelaunayRefinement::default().mesh(&domain, &*spacing, &request, &mut Trace::default());
+    let (_, certificate) = judge(&domain, &mesh.expect("a mesh"), None);
+    assert!(certificate.holds);
+}
