@@ -9,6 +9,7 @@ use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::{CENTRE_ULPS, CERTIFICATE};
 use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
 
 /// `packing-disjoint` and `coverage`.
 pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
@@ -18,22 +19,26 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
         let (mut packing, mut covering) = (Tally::new(Worst::Smallest), Tally::new(Worst::Largest));
         let mut arcs = Vec::new();
         for disc in &discs[range] {
-            let mut is_inside_another = false;
             arcs.clear();
+            // Far more circles meet this one only where a mesh is much finer than f; then what is to be known, soon is.
+            let (mut is_covered, mut broken) = (false, 0);
             sizes.circles.meeting(disc.centre, disc.radius, |other| {
                 if other.id != disc.id {
-                    see_pair(&mut packing, disc, other, c_p, sizes);
-                    match covered_arc(disc, other) {
-                        Arc::All => is_inside_another = true,
-                        Arc::Part(from, to) => arcs.push((from, to)),
-                        Arc::None => {}
+                    if broken < MOST_BROKEN {
+                        broken += usize::from(see_pair(&mut packing, disc, other, c_p, sizes));
+                    }
+                    if !is_covered {
+                        is_covered = add_arc(&mut arcs, disc, other);
                     }
                 }
+                match is_covered && broken == MOST_BROKEN {
+                    true => ControlFlow::Break(()),
+                    false => ControlFlow::Continue(()),
+                }
             });
-            let gap = if is_inside_another {
-                0.0
-            } else {
-                largest_gap(disc, &mut arcs, subject.domain)
+            let gap = match is_covered {
+                true => 0.0,
+                false => largest_gap(disc, &mut arcs, subject.domain),
             };
             covering.see(gap, disc.centre, gap > 0.0);
         }
@@ -58,18 +63,36 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
     ]
 }
 
-/// Notes distance over sum of packing radii, once for each pair.
-fn see_pair(packing: &mut Tally, disc: &Disc, other: &Disc, c_p: f64, sizes: &Sizes) {
+/// Most broken pairs that are counted for a circle.
+const MOST_BROKEN: usize = 256;
+
+/// Notes distance over sum of packing radii, once for each pair, and says whether they overlap.
+fn see_pair(packing: &mut Tally, disc: &Disc, other: &Disc, c_p: f64, sizes: &Sizes) -> bool {
+    let [f, g] = [disc.id, other.id].map(|k| sizes.at_vertex[k as usize]);
+    let radii = c_p * (f + g);
+    let ratio = disc.centre.distance(other.centre) / radii;
+    let coordinate = disc.centre.abs().max(other.centre.abs()).max_element();
+    let rounding = CENTRE_ULPS * f64::EPSILON * coordinate / radii;
+    let is_broken = ratio < 1.0 - CERTIFICATE - rounding;
     if disc.id < other.id {
-        let [f, g] = [disc.id, other.id].map(|k| sizes.at_vertex[k as usize]);
-        let radii = c_p * (f + g);
-        let ratio = disc.centre.distance(other.centre) / radii;
-        let coordinate = disc.centre.abs().max(other.centre.abs()).max_element();
-        let rounding = CENTRE_ULPS * f64::EPSILON * coordinate / radii;
-        let is_broken = ratio < 1.0 - CERTIFICATE - rounding;
         packing.see(ratio, disc.centre.midpoint(other.centre), is_broken);
     }
+    is_broken
 }
+
+/// Notes the arc of a circle in another disc, and says whether the whole circle is known to be covered now: that is looked
+/// into whenever there are twice as many arcs.
+fn add_arc(arcs: &mut Vec<(f64, f64)>, disc: &Disc, other: &Disc) -> bool {
+    match covered_arc(disc, other) {
+        Arc::All => return true,
+        Arc::Part(from, to) => arcs.push((from, to)),
+        Arc::None => return false,
+    }
+    arcs.len() >= MANY_ARCS && arcs.len().is_power_of_two() && longest_gap(arcs, |_| true) == 0.0
+}
+
+/// So many arcs are worth a look.
+const MANY_ARCS: usize = 64;
 
 /// The part of a circle that lies in another closed disc.
 enum Arc {
@@ -100,15 +123,21 @@ fn covered_arc(disc: &Disc, other: &Disc) -> Arc {
 /// The longest arc of the circle that is in no covered part but in the domain, in radians; 0 if there is none.
 fn largest_gap(disc: &Disc, arcs: &mut [(f64, f64)], domain: &Domain) -> f64 {
     let in_domain = |angle: f64| domain.contains(disc.centre + disc.radius * DVec2::from_angle(angle));
-    arcs.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
-    // What reaches over the end of the turn covers the beginning.
-    let Some(mut reach) = arcs.iter().map(|arc| arc.1 - TAU).reduce(f64::max) else {
+    if arcs.is_empty() {
         // A circle that meets no disc cannot cross the boundary either where that is covered.
         return if in_domain(0.0) { TAU } else { 0.0 };
-    };
+    }
+    longest_gap(arcs, in_domain)
+}
+
+/// The longest gap between arcs whose middle is `wanted`; 0 if there is none.
+fn longest_gap(arcs: &mut [(f64, f64)], wanted: impl Fn(f64) -> bool) -> f64 {
+    arcs.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+    // What reaches over the end of the turn covers the beginning.
+    let mut reach = arcs.iter().map(|arc| arc.1 - TAU).fold(f64::NEG_INFINITY, f64::max);
     let mut largest = 0.0;
     for &mut (from, to) in arcs {
-        if from > reach && from - reach > largest && in_domain(0.5 * (reach + from)) {
+        if from > reach && from - reach > largest && wanted(0.5 * (reach + from)) {
             largest = from - reach;
         }
         reach = reach.max(to);
@@ -149,6 +178,10 @@ fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
         let half = (disc.radius - off.abs()) * (disc.radius + off.abs());
         if half >= 0.0 {
             stretches.push((foot - half.sqrt(), foot + half.sqrt()));
+        }
+        match stretches.last() {
+            Some(&(from, to)) if from <= 0.0 && to >= length => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
         }
     });
     stretches.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));

@@ -3,6 +3,7 @@
 //! The judge's own, apart from the grid that biting stands on: it assumes nothing about how radii vary.
 
 use crate::geometry::{DVec2, Rect};
+use std::ops::ControlFlow;
 
 /// Discs a leaf.
 const LEAF: usize = 8;
@@ -87,8 +88,8 @@ impl DiscTree {
         self.split(from + middle, to);
     }
 
-    /// Calls `visit` with every disc that has a point in common with the closed disc around `centre`.
-    pub fn meeting(&self, centre: DVec2, radius: f64, mut visit: impl FnMut(&Disc)) {
+    /// Calls `visit` with every disc that has a point in common with the closed disc around `centre`, until it breaks off.
+    pub fn meeting(&self, centre: DVec2, radius: f64, mut visit: impl FnMut(&Disc) -> ControlFlow<()>) {
         let mut stack = [0u32; DEPTH];
         let mut height = usize::from(!self.nodes.is_empty());
         while height > 0 {
@@ -110,8 +111,8 @@ impl DiscTree {
             }
             for disc in &self.discs[node.range[0] as usize..node.range[1] as usize] {
                 let reach = radius + disc.radius;
-                if disc.centre.distance_squared(centre) <= reach * reach {
-                    visit(disc);
+                if disc.centre.distance_squared(centre) <= reach * reach && visit(disc).is_break() {
+                    return;
                 }
             }
         }
@@ -195,7 +196,10 @@ mod tests {
             let tree = DiscTree::new(discs.iter().copied());
             let x = DVec2::new(x.0, x.1);
             let mut found = Vec::new();
-            tree.meeting(x, radius, |disc| found.push(disc.id as usize));
+            tree.meeting(x, radius, |disc| {
+                found.push(disc.id as usize);
+                ControlFlow::Continue(())
+            });
             found.sort_unstable();
             let all: Vec<_> = (0..discs.len()).filter(|&k| discs[k].0.distance(x) <= radius + discs[k].1).collect();
             prop_assert_eq!(found, all);
