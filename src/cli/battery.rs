@@ -2,6 +2,7 @@
 
 use super::exit::{Failure, Outcome};
 use super::output::{say, say_aside};
+use super::sweep::say_done;
 use crate::experiment::battery::CHUNKS;
 use crate::experiment::battery::campaign::{Campaign, Watch};
 use crate::experiment::battery::chunk::{Chunk, Tally};
@@ -102,10 +103,7 @@ pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
         .settle(parts.iter().map(|(_, part)| part.key.as_str()))
         .map_err(Failure::input)?;
     if let Some(shard) = run.shard {
-        say(format_args!(
-            "shard {} of {} is done; `sweep merge` joins the shards",
-            shard.number, shard.of
-        ));
+        say_done(shard);
         return Ok(());
     }
     let chunks: Vec<Chunk> = journal.lines().iter().map(|line| line.row.clone()).collect();

@@ -93,12 +93,7 @@ pub fn write(target: &Target, domain: &Domain, mesh: &Mesh) -> Result<Vec<PathBu
 
 /// Ends the verb by what the certificate says.
 pub fn verdict(certificate: &Certificate) -> Outcome {
-    let broken: Vec<String> = certificate
-        .checks
-        .iter()
-        .filter(|check| check.applies && !check.holds)
-        .map(told)
-        .collect();
+    let broken: Vec<String> = certificate.broken().map(told).collect();
     if certificate.holds {
         let applying = certificate.checks.iter().filter(|check| check.applies).count();
         say_aside(format_args!("certificate: {applying} checks apply and hold"));

@@ -112,14 +112,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
         .settle(cells.iter().map(|planned| planned.key.as_str()))
         .map_err(Failure::input)?;
     if let Some(shard) = arguments.shard {
-        say(format_args!(
-            "shard {} of {} is done; `sweep merge` joins the shards",
-            shard.number, shard.of
-        ));
+        say_done(shard);
         return Ok(());
     }
     let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
     finish(&plan, &folder, &rows)
+}
+
+/// Says that a shard has run.
+pub(super) fn say_done(shard: Shard) {
+    say(format_args!(
+        "shard {} of {} is done; `sweep merge` joins the shards",
+        shard.number, shard.of
+    ));
 }
 
 /// Opens a file of rows or chunks, and tells what a kill left in it.

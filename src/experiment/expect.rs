@@ -91,8 +91,7 @@ fn certificates(rows: &[Row]) -> Finding {
         .iter()
         .filter_map(|row| {
             let certificate = &summary::measured(row)?.certificate;
-            let claims = certificate.checks.iter().filter(|check| check.applies && !check.holds);
-            let claims: Vec<&str> = claims.map(|check| check.claim.as_str()).collect();
+            let claims: Vec<&str> = certificate.broken().map(|check| check.claim.as_str()).collect();
             (!certificate.holds).then(|| format!("{} ({})", row.key, claims.join(", ")))
         })
         .collect();

@@ -182,7 +182,7 @@ pub struct Check {
     pub bound: Option<f64>,
     /// Whether the claim holds for every witness looked at.
     pub holds: bool,
-    /// How many witnesses broke it.
+    /// How many witnesses broke it; of overlapping packing circles, a few hundred for each are counted.
     pub broken: usize,
     /// Where the worst is, if it is somewhere.
     pub at: Option<[f64; 2]>,
@@ -329,6 +329,11 @@ fn certificate(subject: &subject::Subject) -> Certificate {
 }
 
 impl Certificate {
+    /// The checks that apply and do not hold.
+    pub fn broken(&self) -> impl Iterator<Item = &Check> {
+        self.checks.iter().filter(|check| check.applies && !check.holds)
+    }
+
     /// The check of that name.
     pub fn check(&self, claim: &str) -> Option<&Check> {
         self.checks.iter().find(|check| check.claim == claim)

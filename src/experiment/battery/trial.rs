@@ -173,8 +173,7 @@ impl Site {
             let (worst, bound) = (number(check.worst), number(check.bound));
             format!("{}: {worst} where {bound} is the bound{place}", check.claim)
         };
-        let checks = certificate.checks.iter().filter(|check| check.applies && !check.holds);
-        let broken: Vec<String> = checks.map(told).collect();
+        let broken: Vec<String> = certificate.broken().map(told).collect();
         (!broken.is_empty()).then(|| broken.join("; "))
     }
 }
