@@ -1,66 +1,152 @@
 //! Packing circles are disjoint (Lemma 5.4) and biting circles cover the domain (Theorem 5.5), without sampling.
+//!
+//! A union of closed discs covers the domain if and only if no arc of one of their circles lies in the domain but in no other
+//! disc, as long as the boundary is covered. Only circles through triangles that are not plainly covered are asked: a mesh
+//! much finer than f, as around a very small angle, would have every circle meet every other.
 
 use super::boundary::NO_SEGMENT;
 use super::discs::{Disc, DiscTree};
 use super::subject::{Sizes, Subject};
 use super::tally::{Tally, Worst};
-use super::{Check, parallel};
+use super::{Check, parallel, shape};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::{CENTRE_ULPS, CERTIFICATE};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-/// `packing-disjoint` and `coverage`.
-pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
+/// `packing-disjoint`.
+pub fn packing_check(sizes: &Sizes) -> Check {
     let c_p = sizes.bounds.c_b / (2.0 + sizes.t());
     let discs = sizes.circles.discs();
     let parts = parallel::map_ranges(discs.len(), |range| {
-        let (mut packing, mut covering) = (Tally::new(Worst::Smallest), Tally::new(Worst::Largest));
-        let mut arcs = Vec::new();
+        let mut packing = Tally::new(Worst::Smallest);
         for disc in &discs[range] {
-            arcs.clear();
-            // Far more circles meet this one only where a mesh is much finer than f; then what is to be known, soon is.
-            let (mut is_covered, mut broken) = (false, 0);
+            let mut broken = 0;
             sizes.circles.meeting(disc.centre, disc.radius, |other| {
                 if other.id != disc.id {
-                    if broken < MOST_BROKEN {
-                        broken += usize::from(see_pair(&mut packing, disc, other, c_p, sizes));
-                    }
-                    if !is_covered {
-                        is_covered = add_arc(&mut arcs, disc, other);
-                    }
+                    broken += usize::from(see_pair(&mut packing, disc, other, c_p, sizes));
                 }
-                match is_covered && broken == MOST_BROKEN {
-                    true => ControlFlow::Break(()),
-                    false => ControlFlow::Continue(()),
-                }
+                break_if(broken == MOST_BROKEN)
             });
-            let gap = match is_covered {
-                true => 0.0,
-                false => largest_gap(disc, &mut arcs, subject.domain),
+        }
+        packing
+    });
+    let claim = "packing-disjoint";
+    Tally::all(Worst::Smallest, parts).check(claim, "Lemma 5.4", sizes.applies(claim), 1.0)
+}
+
+/// `coverage` of a mesh; `is_whole` where its triangles are known to make up the domain.
+pub fn coverage_check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
+    let discs = sizes.circles.discs();
+    let open = is_whole.then(|| open_triangles(subject, sizes));
+    let parts = parallel::map_ranges(discs.len(), |range| {
+        let mut covering = Tally::new(Worst::Largest);
+        let mut arcs = Vec::new();
+        for disc in &discs[range] {
+            let is_asked = open.as_ref().is_none_or(|open| passes_through(disc, open));
+            let gap = if is_asked {
+                gap_on(disc, &mut arcs, subject.domain, sizes)
+            } else {
+                0.0
             };
             covering.see(gap, disc.centre, gap > 0.0);
         }
-        (packing, covering)
+        covering
     });
-    let (packing, covering): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
-    let covering = Tally::all(Worst::Largest, covering).join(along_segments(subject, &sizes.circles));
-    let check = |tally: Tally, claim, lemma, bound| tally.check(claim, lemma, sizes.applies(claim), bound);
-    let coverage = check(covering, "coverage", "Theorem 5.5", 0.0);
-    [
-        check(
-            Tally::all(Worst::Smallest, packing),
-            "packing-disjoint",
-            "Lemma 5.4",
-            1.0,
-        ),
-        if coverage.holds {
-            Check { at: None, ..coverage }
-        } else {
-            coverage
-        },
-    ]
+    let covering = Tally::all(Worst::Largest, parts).join(along_segments(subject, &sizes.circles));
+    let coverage = covering.check("coverage", "Theorem 5.5", sizes.applies("coverage"), 0.0);
+    if coverage.holds {
+        Check { at: None, ..coverage }
+    } else {
+        coverage
+    }
+}
+
+/// How often a triangle is quartered to see that it is covered.
+const QUARTERINGS: usize = 6;
+
+/// Discs around the triangles that are not plainly covered.
+fn open_triangles(subject: &Subject, sizes: &Sizes) -> DiscTree {
+    let mut radii = vec![0.0; subject.mesh.points.len()];
+    for disc in sizes.circles.discs() {
+        radii[disc.id as usize] = disc.radius;
+    }
+    let open = parallel::map(subject.mesh.triangles.len(), |t| {
+        let corners = subject.mesh.corners(t);
+        let smallest = subject.mesh.triangles[t]
+            .map(|k| radii[k as usize])
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        // Every point of a triangle is within its circumradius of a corner.
+        let is_plain = shape::circumcentre(corners).distance(corners[0]) <= smallest;
+        let is_open = !is_plain && !is_covered(corners, &sizes.circles, QUARTERINGS);
+        is_open.then(|| disc_around(corners))
+    });
+    DiscTree::new(open.into_iter().flatten())
+}
+
+/// Whether each part of a triangle lies in one disc, parts being made by quartering.
+fn is_covered(corners: [DVec2; 3], circles: &DiscTree, quarterings: usize) -> bool {
+    let (centre, radius) = disc_around(corners);
+    if circles.one_holds(centre, radius) {
+        return true;
+    }
+    let [a, b, c] = corners;
+    let [d, e, f] = [b.midpoint(c), c.midpoint(a), a.midpoint(b)];
+    let parts = [[d, e, f], [a, f, e], [f, b, d], [e, d, c]];
+    quarterings > 0 && parts.into_iter().all(|part| is_covered(part, circles, quarterings - 1))
+}
+
+/// Centre and radius of a disc that holds a triangle.
+fn disc_around(corners: [DVec2; 3]) -> (DVec2, f64) {
+    let centre = shape::centroid(corners);
+    (
+        centre,
+        corners
+            .map(|corner| corner.distance(centre))
+            .into_iter()
+            .fold(0.0, f64::max),
+    )
+}
+
+/// Whether a disc's circle has a point in one of `places`.
+fn passes_through(disc: &Disc, places: &DiscTree) -> bool {
+    let mut passes = false;
+    places.meeting(disc.centre, disc.radius, |place| {
+        passes = disc.centre.distance(place.centre) + place.radius >= disc.radius;
+        break_if(passes)
+    });
+    passes
+}
+
+fn break_if(done: bool) -> ControlFlow<()> {
+    if done {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
+}
+
+/// The longest arc of a disc's circle that lies in the domain but in no other disc, in radians; 0 if there is none.
+fn gap_on(disc: &Disc, arcs: &mut Vec<(f64, f64)>, domain: &Domain, sizes: &Sizes) -> f64 {
+    arcs.clear();
+    let mut is_inside_another = false;
+    sizes.circles.meeting(disc.centre, disc.radius, |other| {
+        if other.id != disc.id {
+            match covered_arc(disc, other) {
+                Arc::All => is_inside_another = true,
+                Arc::Part(from, to) => arcs.push((from, to)),
+                Arc::None => {}
+            }
+        }
+        break_if(is_inside_another)
+    });
+    if is_inside_another {
+        0.0
+    } else {
+        largest_gap(disc, arcs, domain)
+    }
 }
 
 /// Most broken pairs that are counted for a circle.
@@ -79,20 +165,6 @@ fn see_pair(packing: &mut Tally, disc: &Disc, other: &Disc, c_p: f64, sizes: &Si
     }
     is_broken
 }
-
-/// Notes the arc of a circle in another disc, and says whether the whole circle is known to be covered now: that is looked
-/// into whenever there are twice as many arcs.
-fn add_arc(arcs: &mut Vec<(f64, f64)>, disc: &Disc, other: &Disc) -> bool {
-    match covered_arc(disc, other) {
-        Arc::All => return true,
-        Arc::Part(from, to) => arcs.push((from, to)),
-        Arc::None => return false,
-    }
-    arcs.len() >= MANY_ARCS && arcs.len().is_power_of_two() && longest_gap(arcs, |_| true) == 0.0
-}
-
-/// So many arcs are worth a look.
-const MANY_ARCS: usize = 64;
 
 /// The part of a circle that lies in another closed disc.
 enum Arc {
@@ -123,21 +195,15 @@ fn covered_arc(disc: &Disc, other: &Disc) -> Arc {
 /// The longest arc of the circle that is in no covered part but in the domain, in radians; 0 if there is none.
 fn largest_gap(disc: &Disc, arcs: &mut [(f64, f64)], domain: &Domain) -> f64 {
     let in_domain = |angle: f64| domain.contains(disc.centre + disc.radius * DVec2::from_angle(angle));
-    if arcs.is_empty() {
-        // A circle that meets no disc cannot cross the boundary either where that is covered.
-        return if in_domain(0.0) { TAU } else { 0.0 };
-    }
-    longest_gap(arcs, in_domain)
-}
-
-/// The longest gap between arcs whose middle is `wanted`; 0 if there is none.
-fn longest_gap(arcs: &mut [(f64, f64)], wanted: impl Fn(f64) -> bool) -> f64 {
     arcs.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
     // What reaches over the end of the turn covers the beginning.
-    let mut reach = arcs.iter().map(|arc| arc.1 - TAU).fold(f64::NEG_INFINITY, f64::max);
+    let Some(mut reach) = arcs.iter().map(|arc| arc.1 - TAU).reduce(f64::max) else {
+        // A circle that meets no disc cannot cross the boundary either where that is covered.
+        return if in_domain(0.0) { TAU } else { 0.0 };
+    };
     let mut largest = 0.0;
     for &mut (from, to) in arcs {
-        if from > reach && from - reach > largest && wanted(0.5 * (reach + from)) {
+        if from > reach && from - reach > largest && in_domain(0.5 * (reach + from)) {
             largest = from - reach;
         }
         reach = reach.max(to);
@@ -179,10 +245,7 @@ fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
         if half >= 0.0 {
             stretches.push((foot - half.sqrt(), foot + half.sqrt()));
         }
-        match stretches.last() {
-            Some(&(from, to)) if from <= 0.0 && to >= length => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
-        }
+        break_if(stretches.last().is_some_and(|&(from, to)| from <= 0.0 && to >= length))
     });
     stretches.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
     let (mut reach, mut worst) = (0.0, (0.0, middle));

@@ -145,6 +145,17 @@ impl DiscTree {
         least
     }
 
+    /// Whether one of the discs holds the whole disc around `x`, as far as rounding can tell: `false` may be wrong, `true` not.
+    pub fn one_holds(&self, x: DVec2, radius: f64) -> bool {
+        let mut is_held = false;
+        let lower = |node: &Node| away_squared(node.bounds, x).sqrt() - node.radius;
+        self.nearest_first(lower, |disc| {
+            is_held |= disc.centre.distance(x) + radius <= disc.radius;
+            if is_held { f64::NEG_INFINITY } else { -radius }
+        });
+        is_held
+    }
+
     /// Shows discs to `look`, by boxes of small `lower` bounds first, but for boxes whose lower bound is not under the
     /// limit that `look` returned last.
     fn nearest_first(&self, lower: impl Fn(&Node) -> f64, mut look: impl FnMut(&Disc) -> f64) {
@@ -211,6 +222,8 @@ mod tests {
             let rims = discs.iter().map(|(centre, disc)| centre.distance(x) - 0.5 * disc);
             let expected = rims.fold(f64::INFINITY, f64::min);
             prop_assert_eq!(tree.nearest_rim(x, 0.5), expected);
+            let held = discs.iter().any(|(centre, disc)| centre.distance(x) + 0.1 * radius < *disc);
+            prop_assert_eq!(tree.one_holds(x, 0.1 * radius), held);
         }
     }
 }
