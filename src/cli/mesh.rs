@@ -158,7 +158,8 @@ impl Arguments {
             format!(
                 "making the spacing of {}, before any meshing; {}; with lfs as spacing {expected}; ask for a larger t / c_b or \
                  raise the budget",
-                cell.domain, site.narrowest
+                cell.domain,
+                site.lfs.narrowest()
             )
         };
         let (store, prepared) = watch::within(budget, now, making, move || {
@@ -199,7 +200,7 @@ fn expected(integral: f64, c_b: f64) -> String {
 fn mesh_within(prepared: Prepared, mesher: Box<dyn Mesher>, request: Request) -> Result<(Prepared, Run), Failure> {
     let integral = prepared.integral.value;
     let expected = expected(integral, request.c_b);
-    let place = prepared.site.narrowest;
+    let place = prepared.site.lfs.narrowest();
     let fits = LEAST_BYTES_PER_TRIANGLE * spacing::estimate_triangles(integral, request.c_b)
         <= machine::available_memory_bytes().map_or(f64::INFINITY, |bytes| bytes as f64);
     if request.budget == Budget::default() && !fits {
@@ -229,7 +230,7 @@ fn judge_within(
     entry: &'static Entry,
     budget: &Budget,
 ) -> Result<(Prepared, Run, Report), Failure> {
-    let (triangles, place, cell) = (run.mesh.triangles.len(), prepared.site.narrowest, cell.clone());
+    let (triangles, place, cell) = (run.mesh.triangles.len(), prepared.site.lfs.narrowest(), cell.clone());
     let told = || format!("judging a finished mesh of {triangles} triangles; {place}; raise the budget");
     watch::within(budget, Duration::ZERO, told, move || {
         let report = measure::judge(&prepared, &cell, entry, &run, &machine::provenance());

@@ -4,7 +4,7 @@ use super::record::Cell;
 use super::work::Outlook;
 use crate::domain::{self, Domain, DomainError, RepairReport};
 use crate::quality::Bounds;
-use crate::spacing::{self, Integral, Narrowest, Options, Spacing, SpacingError};
+use crate::spacing::{self, Integral, Lfs, Options, Spacing, SpacingError};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -32,10 +32,10 @@ pub enum PrepareError {
 pub struct Site {
     /// The domain.
     pub domain: Arc<Domain>,
+    /// Its local feature size.
+    pub lfs: Arc<Lfs>,
     /// ∫ dA / lfs².
     pub integral_lfs: Integral,
-    /// Where lfs is smallest.
-    pub narrowest: Narrowest,
 }
 
 /// A spacing on a domain, capped by lfs if asked for, not limited.
@@ -244,12 +244,12 @@ impl Store {
     pub fn site(&self, name: &str) -> Result<Arc<Site>, PrepareError> {
         self.sites.get(name.to_owned(), || {
             let domain = self.domain(name)?;
-            let lfs = spacing::lfs_of(&domain).map_err(told(&domain))?;
-            let integral_lfs = spacing::integrate(&lfs, &domain, INTEGRAL_ERROR).map_err(told(&domain))?;
+            let lfs = Arc::new(spacing::lfs_of(&domain).map_err(told(&domain))?);
+            let integral_lfs = spacing::integrate(&*lfs, &domain, INTEGRAL_ERROR).map_err(told(&domain))?;
             Ok(Arc::new(Site {
                 domain,
+                lfs,
                 integral_lfs,
-                narrowest: lfs.narrowest(),
             }))
         })
     }
@@ -260,7 +260,8 @@ impl Store {
             let site = self.site(&cell.domain)?;
             let spec = fill_in(&cell.spacing, &site.domain);
             let options = self.options(cell, f64::INFINITY);
-            let built = spacing::build(&spec, &site.domain, &options).map_err(told(&site.domain))?;
+            let built = spacing::build_with(&spec, &site.domain, &options, || Ok(site.lfs.clone()))
+                .map_err(told(&site.domain))?;
             let integral = if built.spec == "lfs" {
                 site.integral_lfs
             } else {

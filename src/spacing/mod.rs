@@ -260,17 +260,26 @@ pub fn lfs_of(domain: &Domain) -> Result<Lfs, SpacingError> {
 /// # Errors
 /// Everything in [`SpacingError`].
 pub fn build(spec: &str, domain: &Domain, options: &Options) -> Result<Prepared, SpacingError> {
+    build_with(spec, domain, options, || Ok(Arc::new(lfs_of(domain)?)))
+}
+
+/// As [`build`], with the domain's `lfs` from whoever has it already.
+///
+/// # Errors
+/// Everything in [`SpacingError`].
+pub fn build_with(
+    spec: &str,
+    domain: &Domain,
+    options: &Options,
+    lfs: impl FnOnce() -> Result<Arc<Lfs>, SpacingError>,
+) -> Result<Prepared, SpacingError> {
     options.check()?;
     let parsed = Spec::parse(spec)?;
     let is_capped = options.lfs_cap || parsed.is_capped();
-    let lfs: Option<Arc<dyn Spacing>> = if is_capped {
-        Some(Arc::new(lfs_of(domain)?))
-    } else {
-        None
-    };
+    let cap = is_capped.then(lfs).transpose()?;
     let mut parts = Vec::new();
     collect(&parsed, domain.bounds(), &mut parts)?;
-    parts.extend(lfs);
+    parts.extend(cap.map(|lfs| lfs as Arc<dyn Spacing>));
     let function = Min::of(parts, domain.bounds());
     let function = limit(function, domain, options.alpha, options.limit_factor)?;
     Ok(Prepared {

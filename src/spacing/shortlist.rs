@@ -1,4 +1,4 @@
-//! Short lists: a quadtree whose leaves name the few features that decide lfs there.
+//! Short lists: a tree of cells whose leaves name the few features that decide lfs there.
 //!
 //! # Idea
 //! lfs(x) is decided by two of the features nearest to x. If the two that decide at the centre of a small disc are nearer
@@ -19,20 +19,14 @@
 use super::features::{Features, View};
 use crate::geometry::tolerance::SHORTLIST;
 use crate::geometry::{DVec2, Rect};
+use rayon::prelude::*;
 
 /// Deepest tree: cells 2⁻⁴⁰ of the root, finer than coordinates can tell apart in practice.
 const DEPTH: usize = 40;
 
-/// A cell is not split once radius · slope is below this share of the function at its centre: where lists stay long
-/// there, many features tie, and smaller cells would not help.
-const FINEST: f64 = 1e-3;
-
-/// Once radius · slope is below this share of the function, a list as long as [`LONG`] is left as it is: far from many
-/// features, short lists would take a thousand cells for each, and such cells are few where spacing follows lfs.
-const FAR: f64 = 1.0 / 16.0;
-
-/// See [`FAR`].
-const LONG: usize = 1024;
+/// A cell is not split once its radius is below this share of the function at its centre. Meshes and integrals ask a few
+/// times in such a cell where spacing follows lfs: a shorter list would take longer to make than it saves.
+const FINEST: f64 = 1.0 / 32.0;
 
 /// A list this short is not worth splitting.
 const SHORT: usize = 16;
@@ -45,6 +39,9 @@ const IDLE_LEVELS: usize = 2;
 /// See [`IDLE_LEVELS`].
 const PROGRESS: usize = 8;
 
+/// The tree is cut into so many subtrees at least, which are built side by side.
+const SUBTREES: usize = 256;
+
 #[derive(Clone, Copy, Debug)]
 struct Node {
     /// First child (of four), or first entry in `lists`.
@@ -55,16 +52,21 @@ struct Node {
 
 const INNER: u32 = u32::MAX;
 
-/// The quadtree of short lists over a box.
+/// The tree of short lists over a box.
 #[derive(Clone, Debug)]
 pub struct Shortlists {
     root: Rect,
+    tree: Tree,
+}
+
+#[derive(Clone, Debug)]
+struct Tree {
     nodes: Vec<Node>,
     lists: Vec<u32>,
 }
 
+/// A cell with what matters in it, that may be split.
 struct Pending {
-    node: u32,
     cell: Rect,
     depth: usize,
     list: Vec<u32>,
@@ -75,7 +77,7 @@ struct Pending {
 
 impl Pending {
     /// `parent` lists all items that matter in a cell around this one; `idle` is that cell's.
-    fn new(features: &Features, node: u32, cell: Rect, depth: usize, (parent, idle): (&[u32], usize)) -> Self {
+    fn new(features: &Features, cell: Rect, depth: usize, (parent, idle): (&[u32], usize)) -> Self {
         let (centre, radius) = (cell.centre(), 0.5 * cell.diagonal());
         let (value, deciding) = features.decide(parent, centre);
         let deciding = deciding.map(|item| features.view(item, centre));
@@ -86,13 +88,11 @@ impl Pending {
             deciding.iter().any(may_win)
         };
         let list: Vec<u32> = parent.iter().copied().filter(matters).collect();
-        let finest = if list.len() < LONG { FINEST } else { FAR };
-        let is_fine = radius <= finest * value;
+        let is_fine = radius <= FINEST * value;
         let is_idle = radius <= value && PROGRESS * (parent.len() - list.len()) < parent.len();
         let idle = if is_idle { idle + 1 } else { 0 };
         let is_leaf = list.len() <= SHORT || depth >= DEPTH || is_fine || idle >= IDLE_LEVELS;
         Self {
-            node,
             cell,
             depth,
             list,
@@ -100,43 +100,116 @@ impl Pending {
             is_leaf,
         }
     }
+
+    fn parts(&self, features: &Features) -> [Self; 4] {
+        let given = (&self.list[..], self.idle);
+        parts(self.cell).map(|part| Self::new(features, part, self.depth + 1, given))
+    }
+}
+
+/// The four parts of a cell: quarters, or strips across where it is more than twice as long as wide.
+fn parts(cell: Rect) -> [Rect; 4] {
+    let [first, second] = shape(cell);
+    let [low, high] = halves(cell, first);
+    let ([a, b], [c, d]) = (halves(low, second), halves(high, second));
+    [a, b, c, d]
+}
+
+/// The axes along which a cell is halved, one after the other.
+fn shape(cell: Rect) -> [usize; 2] {
+    let size = cell.size();
+    if size.x > 2.0 * size.y {
+        [0, 0]
+    } else if size.y > 2.0 * size.x {
+        [1, 1]
+    } else {
+        [0, 1]
+    }
+}
+
+fn halves(cell: Rect, axis: usize) -> [Rect; 2] {
+    let (mut low, mut high) = (cell, cell);
+    let middle = cell.centre()[axis];
+    low.max[axis] = middle;
+    high.min[axis] = middle;
+    [low, high]
+}
+
+impl Tree {
+    fn new() -> Self {
+        Self {
+            nodes: vec![Node { first: 0, count: 0 }],
+            lists: Vec::new(),
+        }
+    }
+
+    /// Enters a cell at a node: a leaf's list, or an inner node's children, the first of which is returned.
+    fn enter(&mut self, node: u32, cell: &Pending) -> Option<u32> {
+        if cell.is_leaf {
+            self.nodes[node as usize] = Node {
+                first: self.lists.len() as u32,
+                count: cell.list.len() as u32,
+            };
+            self.lists.extend_from_slice(&cell.list);
+            return None;
+        }
+        let first = self.nodes.len() as u32;
+        self.nodes[node as usize] = Node { first, count: INNER };
+        self.nodes.extend([Node { first: 0, count: 0 }; 4]);
+        Some(first)
+    }
+
+    /// The whole tree below a cell.
+    fn below(features: &Features, root: Pending) -> Self {
+        let mut tree = Self::new();
+        let mut pending = vec![(0, root)];
+        while let Some((node, cell)) = pending.pop() {
+            if let Some(first) = tree.enter(node, &cell) {
+                pending.extend((first..).zip(cell.parts(features)));
+            }
+        }
+        tree
+    }
+
+    /// Puts another tree's root at a node.
+    fn graft(&mut self, node: u32, other: Self) {
+        let (nodes, lists) = (self.nodes.len() as u32 - 1, self.lists.len() as u32);
+        let moved = |node: Node| Node {
+            first: node.first + if node.count == INNER { nodes } else { lists },
+            ..node
+        };
+        let mut others = other.nodes.into_iter().map(moved);
+        self.nodes[node as usize] = others.next().expect("a root");
+        self.nodes.extend(others);
+        self.lists.extend(other.lists);
+    }
 }
 
 impl Shortlists {
-    /// Builds the lists over `root`.
+    /// Builds the lists over `root`, on rayon's pool; the tree does not depend on the number of threads.
     pub fn new(features: &Features, root: Rect) -> Self {
-        let mut tree = Self {
-            root,
-            nodes: vec![Node { first: 0, count: 0 }],
-            lists: Vec::new(),
-        };
         let all: Vec<u32> = (0..features.len() as u32).collect();
-        let mut pending = vec![Pending::new(features, 0, root, 0, (&all, 0))];
-        while let Some(next) = pending.pop() {
-            if next.is_leaf {
-                tree.nodes[next.node as usize] = Node {
-                    first: tree.lists.len() as u32,
-                    count: next.list.len() as u32,
-                };
-                tree.lists.extend_from_slice(&next.list);
-                continue;
-            }
-            let first = tree.nodes.len() as u32;
-            tree.nodes[next.node as usize] = Node { first, count: INNER };
-            tree.nodes.extend([Node { first: 0, count: 0 }; 4]);
-            for (cell, node) in next.cell.quarters().into_iter().zip(first..) {
-                pending.push(Pending::new(
-                    features,
-                    node,
-                    cell,
-                    next.depth + 1,
-                    (&next.list, next.idle),
-                ));
-            }
+        let mut tree = Tree::new();
+        let mut level = vec![(0, Pending::new(features, root, 0, (&all, 0)))];
+        while !level.is_empty() && level.len() < SUBTREES {
+            let open = level
+                .into_iter()
+                .filter_map(|(node, cell)| Some((tree.enter(node, &cell)?, cell)));
+            let parts = open.collect::<Vec<_>>().into_par_iter();
+            level = parts
+                .flat_map_iter(|(first, cell)| (first..).zip(cell.parts(features)))
+                .collect();
+        }
+        let subtrees: Vec<(u32, Tree)> = level
+            .into_par_iter()
+            .map(|(node, cell)| (node, Tree::below(features, cell)))
+            .collect();
+        for (node, subtree) in subtrees {
+            tree.graft(node, subtree);
         }
         tree.nodes.shrink_to_fit();
         tree.lists.shrink_to_fit();
-        tree
+        Self { root, tree }
     }
 
     /// The items that decide the function at `x`; none outside the root.
@@ -144,20 +217,27 @@ impl Shortlists {
         if !self.root.contains(x) {
             return None;
         }
+        let Tree { nodes, lists } = &self.tree;
         let mut cell = self.root;
-        let mut node = self.nodes[0];
+        let mut node = nodes[0];
         while node.count == INNER {
-            let centre = cell.centre();
-            let (right, above) = (x.x >= centre.x, x.y >= centre.y);
-            *(if right { &mut cell.min.x } else { &mut cell.max.x }) = centre.x;
-            *(if above { &mut cell.min.y } else { &mut cell.max.y }) = centre.y;
-            node = self.nodes[node.first as usize + usize::from(right) + 2 * usize::from(above)];
+            let mut part = node.first as usize;
+            for (axis, step) in shape(cell).into_iter().zip([2, 1]) {
+                let middle = cell.centre()[axis];
+                if x[axis] >= middle {
+                    cell.min[axis] = middle;
+                    part += step;
+                } else {
+                    cell.max[axis] = middle;
+                }
+            }
+            node = nodes[part];
         }
-        Some(&self.lists[node.first as usize..(node.first + node.count) as usize])
+        Some(&lists[node.first as usize..(node.first + node.count) as usize])
     }
 
     /// Number of tree nodes and of list entries: 8 and 4 bytes each.
     pub fn size(&self) -> (usize, usize) {
-        (self.nodes.len(), self.lists.len())
+        (self.tree.nodes.len(), self.tree.lists.len())
     }
 }

@@ -1,10 +1,11 @@
 //! The triangles that integration starts from: no longer than f / λ, so that f varies within one at most by its own size.
 //!
-//! The constrained Delaunay triangulation of the domain alone is bisected at longest edges. A long segment opposite to
-//! many short ones makes a fan of needles there, each of which is cut into as many parts as a wide triangle would be (a comb
-//! of n teeth: n² parts). Where the number of parts grows large, the domain is triangulated anew with its segments cut into
-//! pieces of about f / λ.
+//! A constrained Delaunay triangulation of the domain with its segments cut into pieces of about f / λ, and with a point in
+//! the middle of each cell of a quadtree, about as large, that no segment meets; what is still longer is bisected. The domain's
+//! own triangulation would not do: a long segment opposite to many short ones, or a round outline of many, makes needles, each
+//! of which is cut into as many parts as a wide triangle would be.
 
+use super::super::cover::{Cell, DEPTH};
 use super::{EVALUATIONS_A_PART, MAX_EVALUATIONS, SpacingError, Triangle, centroid, checked};
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
@@ -16,9 +17,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Triangles are shorter than this share of the domain, so that the error is a sum over hundreds of them and no accident.
 const COARSEST: f64 = 1.0 / 32.0;
-
-/// So many triangles of whole segments are taken as they are.
-const FEW: usize = 1 << 20;
 
 /// Most triangles: more could not be looked at once. Where f is that small, so is no mesh.
 const MOST: usize = MAX_EVALUATIONS / EVALUATIONS_A_PART;
@@ -40,27 +38,22 @@ pub fn triangles(function: &dyn Spacing, domain: &Domain) -> Result<Vec<Triangle
         }
     };
     let reach_at = |x: DVec2| checked(function, x).map(reach);
-    let whole = base(domain, |_, _| Ok(Some(Vec::new())))?;
-    let few = whole.map_or(Ok(None), |whole| cut(whole, reach_at, FEW))?;
-    if let Some(triangles) = few {
-        return Ok(triangles);
-    }
-    let pieces = base(domain, |ends, room| inner_points(ends, reach_at, room))?;
-    let most = pieces.map_or(Ok(None), |pieces| cut(pieces, reach_at, MOST))?;
-    most.ok_or_else(|| narrowest(function, domain))
+    let base = base(domain, reach_at)?;
+    let triangles = base.map_or(Ok(None), |base| cut(base, reach_at, MOST))?;
+    triangles.ok_or_else(|| narrowest(function, domain))
 }
 
-/// The constrained Delaunay triangulation of the domain with further points on its segments; none if they are too many.
-/// `inner` gives those between two ends, none if they are more than there is room for.
-pub(super) fn base(
+/// The triangulation of the domain with further points on its segments and inside; none if they are too many.
+fn base(
     domain: &Domain,
-    inner: impl Fn([DVec2; 2], usize) -> Result<Option<Vec<DVec2>>, SpacingError>,
+    reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
 ) -> Result<Option<Vec<Triangle>>, SpacingError> {
     let mut points = domain.vertices().to_vec();
     let mut pieces = Vec::new();
     for (segment, ends) in domain.segments().iter().zip(0..) {
         let first = points.len() as u32;
-        let Some(between) = inner(domain.ends(ends as usize), MOST.saturating_sub(points.len()))? else {
+        let room = MOST.saturating_sub(points.len());
+        let Some(between) = inner_points(domain.ends(ends as usize), &reach_at, room)? else {
             return Ok(None);
         };
         points.extend(between);
@@ -75,13 +68,47 @@ pub(super) fn base(
             segment: ends,
         }));
     }
+    let room = (MOST / 2).saturating_sub(points.len());
+    let Some(inside) = middles(domain, &reach_at, room)? else {
+        return Ok(None);
+    };
+    points.extend(inside);
     let mesh = triangulate(domain, points, pieces)?;
     let corners = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.points[vertex as usize]);
     Ok(Some(mesh.triangles.iter().map(corners).collect()))
 }
 
+/// The middles of the quadtree's cells that no segment meets, each with a diagonal of at most f / λ in its middle.
+fn middles(
+    domain: &Domain,
+    reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
+    room: usize,
+) -> Result<Option<Vec<DVec2>>, SpacingError> {
+    let mut middles = Vec::new();
+    let mut level = vec![Cell::root(domain)];
+    for _ in 0..DEPTH {
+        let looked = level.par_iter().map(|cell| {
+            let x = cell.point(domain);
+            let is_small = cell.rect.diagonal() <= reach_at(x)?;
+            Ok(match (is_small, cell.crossing.is_empty()) {
+                (true, true) => (Some(x), Vec::new()),
+                (true, false) => (None, Vec::new()),
+                (false, _) => (None, cell.split(domain).collect()),
+            })
+        });
+        let looked: Vec<(Option<DVec2>, Vec<Cell>)> = looked.collect::<Result<_, SpacingError>>()?;
+        let (found, parts): (Vec<_>, Vec<_>) = looked.into_iter().unzip();
+        middles.extend(found.into_iter().flatten());
+        level = parts.into_iter().flatten().collect();
+        if middles.len() + level.len() > room {
+            return Ok(None);
+        }
+    }
+    Ok(Some(middles))
+}
+
 /// Points between the ends, by bisection, that leave no piece longer than f / λ at its middle.
-pub(super) fn inner_points(
+fn inner_points(
     ends: [DVec2; 2],
     reach_at: impl Fn(DVec2) -> Result<f64, SpacingError>,
     room: usize,
@@ -103,7 +130,7 @@ pub(super) fn inner_points(
 }
 
 /// Bisects until no edge is longer than f / λ at the centroid; none if there are more than `most` then.
-pub(super) fn cut(
+fn cut(
     base: Vec<Triangle>,
     reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
     most: usize,

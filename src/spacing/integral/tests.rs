@@ -144,22 +144,24 @@ fn long_comb(teeth: u32) -> Domain {
     .unwrap()
 }
 
-/// Each tooth makes a needle as long as the comb, and each needle is cut into as many parts as that is long.
+/// Each tooth made a needle as long as the comb, and each needle was cut into as many parts as that is long; round outlines
+/// made needles as long as the domain.
 #[test]
-fn needles_over_a_long_segment_are_avoided_by_cutting_it() {
-    let parts = |teeth, is_cut: bool| {
-        let domain = long_comb(teeth);
-        let lfs = lfs_of(&domain).unwrap();
-        let reach = |x: DVec2| Ok(lfs.at(x));
-        let inner = |ends, room| match is_cut {
-            true => start::inner_points(ends, reach, room),
-            false => Ok(Some(Vec::new())),
-        };
-        let base = start::base(&domain, inner).unwrap().unwrap();
-        start::cut(base, reach, usize::MAX).unwrap().unwrap().len()
+fn triangles_to_begin_with_are_as_many_as_the_integral_is_large() {
+    let per_unit = |domain: &Domain| {
+        let lfs = lfs_of(domain).unwrap();
+        let parts = start::triangles(&lfs, domain).unwrap().len();
+        parts as f64 / integrate(&lfs, domain, 1e-2).unwrap().value
     };
-    let (whole, cut) = (parts(128, false), parts(128, true));
-    assert!(8 * cut < whole, "{cut} of {whole}");
-    let (few, many) = (parts(32, true), parts(256, true));
-    assert!(many < 10 * few, "{few} parts for 32 teeth, {many} for 256");
+    for domain in [long_comb(32), long_comb(256), gallery("annulus"), regular(2000)] {
+        let parts = per_unit(&domain);
+        assert!(parts < 25.0, "{parts} parts for each unit of {}", domain.name());
+    }
+}
+
+fn regular(corners: usize) -> Domain {
+    let mut pslg = Pslg::new("regular");
+    let at = |k: usize| DVec2::from_angle(std::f64::consts::TAU * k as f64 / corners as f64);
+    pslg.add_ring((0..corners).map(at), 1);
+    Domain::new(pslg).unwrap()
 }
