@@ -1,7 +1,7 @@
 //! `mesh DOMAIN`: one mesh, its files and its report.
 
 use super::exit::{Failure, Outcome};
-use super::output::{self, Target, say, say_aside};
+use super::output::{self, STDOUT, Target, say, say_aside};
 use super::values::{bytes, parameter, positive};
 use super::watch;
 use crate::domain::Domain;
@@ -10,11 +10,9 @@ use crate::experiment::measure::{self, Run};
 use crate::experiment::prepare::{Prepared, Store};
 use crate::experiment::record::{Cell, Report};
 use crate::experiment::runner;
-use crate::files::write_whole;
 use crate::meshers::{Budget, Entry, MeshError, Mesher, Request};
 use crate::spacing;
 use serde_json::Value;
-use std::path::PathBuf;
 use std::time::Duration;
 
 /// The default of `--t`: see the page of findings in `results/sweep`.
@@ -55,9 +53,9 @@ pub struct Arguments {
     /// standard output; may be repeated
     #[arg(long, value_name = "FILE")]
     out: Vec<String>,
-    /// Where to write the report
+    /// Where to write the report, or - for standard output
     #[arg(long, value_name = "FILE.json")]
-    report: Option<PathBuf>,
+    report: Option<String>,
     /// Mend what can be mended in a domain file, and say what was changed
     #[arg(long)]
     repair: bool,
@@ -84,6 +82,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
         .iter()
         .map(|text| Target::parse(text))
         .collect::<Result<Vec<_>, _>>()?;
+    if let Some(both) = arguments
+        .out
+        .iter()
+        .find(|name| arguments.report.as_ref() == Some(name))
+    {
+        return Err(Failure::Input(format!(
+            "--out and --report both name {both}; write the report to a file of its own"
+        )));
+    }
     let cell = arguments.cell()?;
     let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
     let request = arguments.request();
@@ -95,15 +102,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     for target in &targets {
         written.extend(output::write(target, &prepared.site.domain, &run.mesh)?);
     }
-    if let Some(path) = &arguments.report {
+    if let Some(name) = &arguments.report {
         let text = serde_json::to_string_pretty(&report).map_err(Failure::input)?;
-        write_whole(path, text.as_bytes()).map_err(|cause| Failure::Input(format!("{}: {cause}", path.display())))?;
-        written.push(path.clone());
+        if name == STDOUT {
+            output::write_out(&text)?;
+        } else {
+            output::write_file(name.as_ref(), &text)?;
+            written.push(name.into());
+        }
     }
     let mut lines = summary(&report);
     lines.extend(written.iter().map(|path| format!("wrote {}", path.display())));
-    if targets.contains(&Target::Stdout) {
-        // Standard output carries the mesh.
+    if targets.contains(&Target::Stdout) || arguments.report.as_deref() == Some(STDOUT) {
+        // Standard output carries the mesh or the report.
         say_aside(lines.join("\n"));
     } else {
         say(lines.join("\n"));

@@ -52,7 +52,7 @@ impl Target {
             .extension()
             .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
         match ending.as_deref() {
-            _ if text == "-" => Ok(Self::Stdout),
+            _ if text == STDOUT => Ok(Self::Stdout),
             Some("poly") => Ok(Self::Poly(path)),
             Some("png") => Ok(Self::Png(path)),
             _ if files::Format::of(&path).is_some() => Ok(Self::Mesh(path)),
@@ -63,18 +63,34 @@ impl Target {
     }
 }
 
+/// The name that stands for standard output.
+pub const STDOUT: &str = "-";
+
+/// Writes what was asked for on standard output: unlike what is only said, it must get there.
+pub fn write_out(text: &str) -> Outcome {
+    let mut out = std::io::stdout().lock();
+    let written = writeln!(out, "{text}").and_then(|()| out.flush());
+    written.map_err(|cause| refused(Path::new("standard output"), cause))
+}
+
+/// Writes a file, complete or not at all.
+pub fn write_file(path: &Path, text: &str) -> Outcome {
+    write_whole(path, text.as_bytes()).map_err(|cause| refused(path, cause))
+}
+
+fn refused(path: &Path, cause: std::io::Error) -> Failure {
+    Failure::Input(format!("{}: {cause}", path.display()))
+}
+
 /// Writes the mesh and gives the files that are now there.
 pub fn write(target: &Target, domain: &Domain, mesh: &Mesh) -> Result<Vec<PathBuf>, Failure> {
-    let refused = |path: &Path, cause: std::io::Error| Failure::Input(format!("{}: {cause}", path.display()));
     match target {
         Target::Stdout => {
-            let mut out = std::io::stdout().lock();
-            let written = writeln!(out, "{}", files::json_text(mesh)).and_then(|()| out.flush());
-            written.map_err(|cause| refused(Path::new("standard output"), cause))?;
+            write_out(&files::json_text(mesh))?;
             Ok(Vec::new())
         }
         Target::Poly(path) => {
-            write_whole(path, domain.to_poly().as_bytes()).map_err(|cause| refused(path, cause))?;
+            write_file(path, &domain.to_poly())?;
             Ok(vec![path.clone()])
         }
         Target::Png(path) => {

@@ -281,19 +281,26 @@ fn a_budget_is_noticed_while_the_spacing_is_made() {
 }
 
 #[test]
-fn standard_output_carries_only_the_mesh() {
-    let (out, err) = run(
-        folder().path(),
-        &["mesh", "unit-square", "--size", "0.2", "--out", "-"],
-        0,
-    );
-    let mesh: Value = serde_json::from_str(&out).expect("JSON and nothing else");
-    assert!(
-        mesh["triangles"]
-            .as_array()
-            .is_some_and(|triangles| !triangles.is_empty())
-    );
-    assert!(err.contains("triangles"), "the summary goes to standard error: {err}");
+fn standard_output_carries_only_the_mesh_or_the_report() {
+    let folder = folder();
+    for (option, is_it) in [
+        ("--out", (|json| json["triangles"].is_array()) as fn(&Value) -> bool),
+        ("--report", |json| {
+            json["triangles"].is_u64() && json["certificate"]["holds"] == true
+        }),
+    ] {
+        let arguments = ["mesh", "unit-square", "--size", "0.2", option, "-"];
+        let (out, err) = run(folder.path(), &arguments, 0);
+        assert!(
+            is_it(&serde_json::from_str(&out).expect("JSON and nothing else")),
+            "{out}"
+        );
+        assert!(err.contains("triangles"), "the summary goes to standard error: {err}");
+    }
+    let both = ["mesh", "unit-square", "--out", "-", "--report", "-"];
+    let (_, message) = run(folder.path(), &both, 2);
+    assert!(message.contains("--out and --report both name -"), "{message}");
+    assert!(names(folder.path()).is_empty());
 }
 
 /// A plan of 18 cells on three domains, two of the cells timed.
