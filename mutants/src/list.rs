@@ -2,6 +2,8 @@
 
 use anyhow::{Context, Result, ensure};
 use serde::Deserialize;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::process::Command;
 
@@ -40,6 +42,9 @@ pub struct Mutant {
     pub span: Span,
     pub replacement: String,
     pub genre: Genre,
+    /// The source line it starts in, trimmed, as it was when the list was made.
+    #[serde(skip)]
+    pub line: String,
 }
 
 impl Mutant {
@@ -61,5 +66,15 @@ pub fn list(root: &Path, globs: &[String]) -> Result<Vec<Mutant>> {
         .context("cargo mutants: `cargo install cargo-mutants --locked`")?;
     let message = String::from_utf8_lossy(&output.stderr);
     ensure!(output.status.success(), "cargo mutants --list: {message}");
-    serde_json::from_slice(&output.stdout).context("the list of cargo mutants")
+    let mut mutants: Vec<Mutant> = serde_json::from_slice(&output.stdout).context("the list of cargo mutants")?;
+    let mut texts: HashMap<String, String> = HashMap::new();
+    for mutant in &mut mutants {
+        let text = match texts.entry(mutant.file.clone()) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => place.insert(std::fs::read_to_string(root.join(&mutant.file))?),
+        };
+        let line = text.lines().nth(mutant.span.start.line - 1);
+        mutant.line = line.unwrap_or_default().trim().to_owned();
+    }
+    Ok(mutants)
 }

@@ -1,10 +1,12 @@
-//! Mutation testing in one build: `biting-mutants [--jobs N] [--modules A,B] [--tests PREFIX]... GLOB...`; `../run` calls it.
+//! Mutation testing in one build: `biting-mutants [--jobs N] [--rest] [--under S] [--modules A,B] [--tests PREFIX]...
+//! GLOB...`; `../run` calls it.
 //!
 //! cargo-mutants compiles once per mutant. Here its list of mutants is compiled at once, each behind a switch that an
 //! environment variable sets ([`schema`]); what does not compile so is left to cargo-mutants itself. Each test is run once
 //! to see which mutants it reaches, then each mutant is run against those tests alone.
 
 mod list;
+mod log;
 mod report;
 mod run;
 mod schema;
@@ -12,11 +14,16 @@ mod tree;
 
 use anyhow::{Context, Result};
 use list::Mutant;
+use log::Log;
 use run::{Outcome, Runner};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 struct Arguments {
     jobs: usize,
+    /// Believes the last runs of mutants that they killed, or that timed out, where their lines have not changed since.
+    rest: bool,
+    /// Seconds of work a test may take; those that take more are left out.
+    under: Option<f64>,
     /// Of the crate, these modules alone, with their unit tests; all, with the integration tests, where there is none.
     modules: Option<Vec<String>>,
     /// Of the tests, those whose names (`lib::geometry::near::…`) begin so; all where there is none.
@@ -28,6 +35,8 @@ struct Arguments {
 fn arguments() -> Result<Arguments> {
     let mut parsed = Arguments {
         jobs: 2,
+        rest: false,
+        under: None,
         modules: None,
         tests: Vec::new(),
         files: Vec::new(),
@@ -37,6 +46,8 @@ fn arguments() -> Result<Arguments> {
         let mut value = || all.next().with_context(|| format!("{argument} takes a value"));
         match argument.as_str() {
             "--jobs" => parsed.jobs = value()?.parse()?,
+            "--rest" => parsed.rest = true,
+            "--under" => parsed.under = Some(value()?.parse()?),
             "--modules" => parsed.modules = Some(value()?.split(',').map(str::to_owned).collect()),
             "--tests" => parsed.tests.push(value()?),
             _ => parsed.files.push(argument),
@@ -58,20 +69,23 @@ fn main() -> Result<()> {
         place: &tree.place,
         programs: &programs,
         jobs: arguments.jobs,
+        under: arguments.under,
     };
     let tests = runner
         .record(|name| arguments.tests.is_empty() || arguments.tests.iter().any(|prefix| name.starts_with(prefix)))?;
     let seconds: f64 = tests.iter().map(|test| test.seconds).sum();
     eprintln!("{} tests, {seconds:.0} s one after another", tests.len());
     let numbered: Vec<(usize, &Mutant)> = mutants.iter().enumerate().map(|(k, mutant)| (k + 1, mutant)).collect();
-    let log = out.join("outcomes.log");
-    std::fs::write(&log, "")?;
+    let log = Log::open(out.join("outcomes.log"), arguments.rest)?;
     let outcomes = runner.parallel(&numbered, |_, (number, mutant)| -> Result<Option<Outcome>> {
         if tree.left_out.contains(number) {
             return Ok(None);
         }
+        if let Some(told) = log.told(mutant) {
+            return Ok(Some(told));
+        }
         let outcome = runner.judge(*number, mutant, &tests)?;
-        note(&log, &format!("{}\t{outcome:?}\n", mutant.name))?;
+        log.note(mutant, Some(&outcome))?;
         Ok(Some(outcome))
     });
     let judged: Vec<(Mutant, Option<Outcome>)> = mutants
@@ -80,17 +94,11 @@ fn main() -> Result<()> {
         .zip(outcomes.into_iter().collect::<Result<Vec<_>>>()?)
         .collect();
     for (mutant, _) in judged.iter().filter(|(_, outcome)| outcome.is_none()) {
-        note(&log, &format!("{}\tleft out\n", mutant.name))?;
+        log.note(mutant, None)?;
     }
     let explained = report::Explained::read(&here.join("explained.toml"))?;
-    let (table, open) = report::report(root, &judged, &explained)?;
+    let (table, open) = report::report(&judged, &explained);
     println!("{table}");
     open.iter().for_each(|line| println!("{line}"));
     std::process::exit(i32::from(!open.is_empty()))
-}
-
-fn note(log: &PathBuf, line: &str) -> Result<()> {
-    use std::io::Write;
-    let mut file = std::fs::OpenOptions::new().append(true).open(log)?;
-    Ok(file.write_all(line.as_bytes())?)
 }

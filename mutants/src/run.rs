@@ -42,6 +42,8 @@ pub struct Runner<'a> {
     pub place: &'a Path,
     pub programs: &'a [Program],
     pub jobs: usize,
+    /// Seconds of work a test may take while no mutant is on; those that take more are left out.
+    pub under: Option<f64>,
 }
 
 impl Runner<'_> {
@@ -61,14 +63,22 @@ impl Runner<'_> {
             let path = folder.join(k.to_string());
             let _ = std::fs::remove_file(&path);
             let start = Instant::now();
-            let output = self
-                .command(&self.programs[*index])
+            let output = limited(&self.programs[*index].path, self.under.unwrap_or(1e6))
                 .args(["--exact", name])
+                .current_dir(self.place)
+                .envs(self.environment())
                 .env("MUTANT", RECORD.to_string())
                 .env("MUTANTS_REACHED", &path)
+                .stdin(Stdio::null())
                 .output()?;
             if !output.status.success() {
-                eprintln!("left out, since it fails without a mutant: {name}");
+                let is_slow = matches!(output.status.signal(), Some(SIGXCPU | SIGKILL));
+                let why = if is_slow {
+                    "it takes too long"
+                } else {
+                    "it fails without a mutant"
+                };
+                eprintln!("left out, since {why}: {name}");
                 return Ok(None);
             }
             let seconds = start.elapsed().as_secs_f64();
@@ -131,15 +141,9 @@ impl Runner<'_> {
         // Seconds of work, whatever else the machine does; a deadlock works for none of them.
         let most = 5.0 + 4.0 * seconds;
         let limit = Duration::from_secs_f64(20.0 * most);
-        // What grows without end dies of the memory limit: killed, as a test that fails is.
-        let mut child = Command::new("sh")
-            .args([
-                "-c",
-                &format!("ulimit -v 6000000; ulimit -t {most:.0}; exec \"$@\""),
-                "sh",
-            ])
-            .arg(&self.programs[tests[0].program].path)
-            .args(["--exact", "--test-threads=1"])
+        let mut child = limited(&self.programs[tests[0].program].path, most)
+            // Several at once, so that one that hangs does not keep another from failing.
+            .args(["--exact", "--test-threads=6"])
             .args(tests.iter().map(|test| &test.name))
             .current_dir(self.place)
             .envs(self.environment())
@@ -187,7 +191,7 @@ impl Runner<'_> {
         command
     }
 
-    /// One thread, the same random cases every time, none of them shrunk or kept.
+    /// One thread a test, the same random cases every time, none of them shrunk or kept.
     fn environment(&self) -> [(&str, &std::ffi::OsStr); 5] {
         [
             ("CARGO_MANIFEST_DIR", self.place.as_os_str()),
@@ -220,6 +224,20 @@ impl Runner<'_> {
         let mut results = results.into_inner().unwrap_or_default();
         (0..items.len()).filter_map(|k| results.remove(&k)).collect()
     }
+}
+
+/// A command that ends after so many seconds of work, rounded up. What grows without end dies of the memory limit: killed,
+/// as a test that fails is.
+fn limited(program: &Path, seconds: f64) -> Command {
+    let mut command = Command::new("sh");
+    command
+        .args([
+            "-c",
+            &format!("ulimit -v 6000000; ulimit -t {:.0}; exec \"$@\"", seconds.ceil()),
+            "sh",
+        ])
+        .arg(program);
+    command
 }
 
 /// `geometry::near` for `src/geometry/near.rs`.

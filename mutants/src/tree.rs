@@ -29,7 +29,9 @@ pub fn is(mutant: u32) -> bool {
 #[inline(never)]
 fn reach(mutant: u32) {
     use std::io::Write;
+    // Looked at before it is set: that is far cheaper, and nearly always enough.
     if let Some((seen, file)) = &*REACHED
+        && !seen[mutant as usize].load(Ordering::Relaxed)
         && !seen[mutant as usize].swap(true, Ordering::Relaxed)
     {
         let mut file = file.lock().unwrap();

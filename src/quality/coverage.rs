@@ -203,7 +203,7 @@ fn largest_gap(disc: &Disc, arcs: &mut [(f64, f64)], domain: &Domain) -> f64 {
     };
     let mut largest = 0.0;
     for &mut (from, to) in arcs {
-        if from > reach && from - reach > largest && in_domain(0.5 * (reach + from)) {
+        if from - reach > largest && in_domain(0.5 * (reach + from)) {
             largest = from - reach;
         }
         reach = reach.max(to);
@@ -232,7 +232,7 @@ fn along_segments(subject: &Subject, circles: &DiscTree) -> Tally {
     Tally::all(Worst::Largest, parts)
 }
 
-/// The longest uncovered stretch of a segment, over the segment's length, and its middle.
+/// The longest uncovered stretch of a segment (of equals the first), over the segment's length, and its middle.
 fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
     let (middle, direction) = (a.midpoint(b), b - a);
     let length = direction.length();
@@ -258,3 +258,6 @@ fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
     }
     worst
 }
+
+#[cfg(test)]
+mod tests;

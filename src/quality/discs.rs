@@ -199,13 +199,22 @@ mod tests {
 
         #[test]
         fn queries_agree_with_looking_at_all(
-            discs in prop::collection::vec((0.0f64..4.0, 0.0f64..1.0, 0.0f64..0.3), 0..60),
+            discs in prop::collection::vec((0.0f64..4.0, 0.0f64..1.0, 0.0f64..1.0), 0..90),
             x in (-1.0f64..5.0, -1.0f64..2.0),
             radius in 0.0f64..1.0,
+            is_tall in any::<bool>(),
+            scale in prop::sample::select(vec![0.125, 1.0, 8.0]),
         ) {
-            let discs: Vec<_> = discs.iter().map(|&(x, y, r)| (DVec2::new(x, y), r * r)).collect();
+            let place = |x: f64, y: f64| scale * if is_tall { DVec2::new(y, x) } else { DVec2::new(x, y) };
+            // Mostly small, some large.
+            let discs: Vec<_> = discs.iter().map(|&(x, y, r)| (place(x, y), scale * r * r * r)).collect();
+            let radius = scale * radius;
             let tree = DiscTree::new(discs.iter().copied());
-            let x = DVec2::new(x.0, x.1);
+            let x = place(x.0, x.1);
+            let mut ids: Vec<_> = tree.discs().iter().map(|disc| disc.id as usize).collect();
+            ids.sort_unstable();
+            prop_assert_eq!(ids, (0..discs.len()).collect::<Vec<_>>());
+            prop_assert!(tree.discs().iter().all(|disc| discs[disc.id as usize] == (disc.centre, disc.radius)));
             let mut found = Vec::new();
             tree.meeting(x, radius, |disc| {
                 found.push(disc.id as usize);
@@ -213,17 +222,54 @@ mod tests {
             });
             found.sort_unstable();
             let all: Vec<_> = (0..discs.len()).filter(|&k| discs[k].0.distance(x) <= radius + discs[k].1).collect();
-            prop_assert_eq!(found, all);
+            prop_assert_eq!(&found, &all);
+            let mut visits = 0;
+            tree.meeting(x, radius, |_| {
+                visits += 1;
+                if visits == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            prop_assert_eq!(visits, all.len().min(3));
             let mut distances: Vec<_> = discs.iter().map(|disc| disc.0.distance(x)).collect();
             distances.sort_by(f64::total_cmp);
             let expected = distances.get(1).copied().unwrap_or(f64::INFINITY);
             let found = tree.second_nearest(x);
-            prop_assert!(found == expected || (found - expected).abs() < 1e-15, "{found} {expected}");
+            prop_assert!(found == expected || (found - expected).abs() < 1e-15 * scale, "{found} {expected}");
             let rims = discs.iter().map(|(centre, disc)| centre.distance(x) - 0.5 * disc);
             let expected = rims.fold(f64::INFINITY, f64::min);
             prop_assert_eq!(tree.nearest_rim(x, 0.5), expected);
             let held = discs.iter().any(|(centre, disc)| centre.distance(x) + 0.1 * radius < *disc);
             prop_assert_eq!(tree.one_holds(x, 0.1 * radius), held);
         }
+    }
+
+    #[test]
+    fn discs_that_touch_meet_and_hold() {
+        // Two leaves and more, the disc in question among others far away.
+        let far = (0..20).map(|k| (DVec2::new(100.0 + f64::from(k), 50.0), 1.0));
+        let tree = DiscTree::new(std::iter::once((DVec2::new(3.0, 4.0), 2.0)).chain(far));
+        let meets = |radius: f64| {
+            let mut found = Vec::new();
+            tree.meeting(DVec2::ZERO, radius, |disc| {
+                found.push(disc.id);
+                ControlFlow::Continue(())
+            });
+            found
+        };
+        assert_eq!((meets(3.0), meets(2.9375)), (vec![0], vec![]));
+        assert!(tree.one_holds(DVec2::new(3.0, 5.0), 1.0) && !tree.one_holds(DVec2::new(3.0, 5.0), 1.0625));
+        // A disc at the place counts as the nearest, one at the same place as the second.
+        assert_eq!(tree.second_nearest(DVec2::new(100.0, 50.0)), 1.0);
+        let twins = DiscTree::new([(DVec2::X, 1.0), (DVec2::X, 2.0), (DVec2::Y, 0.0)].into_iter());
+        assert_eq!(twins.second_nearest(DVec2::X), 0.0);
+        assert_eq!(
+            (twins.nearest_rim(DVec2::X, 0.5), twins.nearest_rim(DVec2::Y, 1.0)),
+            (-1.0, 2f64.sqrt() - 2.0)
+        );
+        let none = DiscTree::new(std::iter::empty());
+        assert_eq!(
+            (none.second_nearest(DVec2::X), none.nearest_rim(DVec2::X, 1.0)),
+            (f64::INFINITY, f64::INFINITY)
+        );
+        assert!(!none.one_holds(DVec2::X, 0.0) && none.discs().is_empty());
     }
 }

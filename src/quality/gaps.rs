@@ -259,4 +259,61 @@ mod tests {
         mesh.triangles = vec![[0, 1, 2], [0, 2, 3]];
         assert!((beta(&domain, &mesh, &uniform, 0.5) - (8f64.sqrt() - 1.0)).abs() < 1e-12);
     }
+
+    /// Where triangles at the boundary are obtuse their circumcentres lie outside, and the gap is largest on a segment.
+    #[test]
+    fn the_largest_gap_may_lie_on_a_segment_away_from_its_middle() {
+        let flat = |turn: f64, x: f64| {
+            let place = |x: f64, y: f64| DVec2::from_angle(turn).rotate(DVec2::new(x, y));
+            let ring = [place(0.0, 0.0), place(1.0, 0.0), place(1.0, 0.4), place(0.0, 0.4)];
+            let mut pslg = crate::domain::Pslg::new("flat");
+            pslg.add_ring(ring, 1);
+            let mesh = Mesh {
+                points: [&ring[..], &[place(x, 0.1)]].concat(),
+                triangles: vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
+                ..Mesh::default()
+            };
+            beta(
+                &Domain::new(pslg).expect("a domain"),
+                &mesh,
+                &spacing::Uniform(1.0),
+                0.5,
+            )
+        };
+        // On the upper side, u from the further corner, u² = (0.55 − u)² + 0.3². Circumcentres inside are 0.32 from theirs.
+        let exact = (0.3025 + 0.09) / 1.1 / 0.25 - 1.0;
+        // Turned so that none of the directions that are tried in the plane follows a segment.
+        let turns = [0.2, 1.7, 3.3, 4.9];
+        for (turn, x) in turns.into_iter().flat_map(|turn| [(turn, 0.45), (turn, 0.55)]) {
+            let found = flat(turn, x);
+            assert!(
+                found <= exact + 1e-12 && found >= exact - 0.004,
+                "{found} where {exact} is right"
+            );
+        }
+    }
+
+    /// Steps as long as a quarter of a circle may lead past the ends of a piece: what lies there does not count.
+    #[test]
+    fn no_gap_is_looked_for_outside() {
+        let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y, DVec2::splat(0.5)];
+        for shift in [DVec2::ZERO, DVec2::splat(3.0), DVec2::splat(-5.0)] {
+            let points = corners.map(|x| x + shift);
+            let mut pslg = crate::domain::Pslg::new("square");
+            pslg.add_ring(points[..4].iter().copied(), 1);
+            let mesh = Mesh {
+                points: points.to_vec(),
+                triangles: vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
+                ..Mesh::default()
+            };
+            // c_p = 5: in the middle of a side ½ / 5 − 1.
+            let found = beta(
+                &Domain::new(pslg).expect("a domain"),
+                &mesh,
+                &spacing::Uniform(1.0),
+                10.0,
+            );
+            assert!((found + 0.9).abs() < 1e-8, "{found}");
+        }
+    }
 }

@@ -26,3 +26,20 @@ pub fn sum(count: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
         .into_iter()
         .sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_make_up_the_whole_in_order_and_are_small_enough_to_share_out() {
+        for count in [0, 1, CHUNK - 1, CHUNK, CHUNK + 1, 3 * CHUNK + 5] {
+            let ranges = map_ranges(count, |range| range);
+            assert!(ranges.iter().all(|range| !range.is_empty() && range.len() <= CHUNK));
+            let expected: Vec<usize> = (0..count).collect();
+            assert_eq!(ranges.into_iter().flatten().collect::<Vec<_>>(), expected);
+            assert_eq!(map(count, |k| k), expected);
+            assert_eq!(sum(count, |k| k as f64), expected.iter().sum::<usize>() as f64);
+        }
+    }
+}

@@ -80,3 +80,58 @@ impl Tally {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(x: f64) -> DVec2 {
+        DVec2::new(x, 0.0)
+    }
+
+    #[test]
+    fn the_worst_is_the_first_of_the_worst_values() {
+        for (which, worst) in [(Worst::Smallest, 2.0), (Worst::Largest, 7.0)] {
+            let mut tally = Tally::new(which);
+            for (value, place) in [(4.0, 0.0), (2.0, 1.0), (7.0, 2.0), (2.0, 3.0), (7.0, 4.0)] {
+                tally.see(value, at(place), false);
+            }
+            let place = if which == Worst::Smallest { 1.0 } else { 2.0 };
+            // In parts as in one.
+            let mut later = Tally::new(which);
+            later.see(worst, at(9.0), false);
+            let parts = Tally::all(which, [tally.clone(), later.clone()]).check("", "", true, 0.0);
+            let whole = tally.check("claim", "lemma", true, 5.0);
+            assert_eq!((whole.worst, whole.at), (Some(worst), Some([place, 0.0])));
+            assert_eq!((parts.worst, parts.at), (whole.worst, whole.at));
+            assert_eq!((whole.claim.as_str(), whole.lemma.as_str()), ("claim", "lemma"));
+            assert!(whole.holds && whole.applies && whole.bound == Some(5.0) && whole.witnesses.is_empty());
+        }
+    }
+
+    #[test]
+    fn all_that_break_a_claim_are_counted_and_the_first_few_listed() {
+        let of = |places: std::ops::Range<usize>| {
+            let mut tally = Tally::new(Worst::Largest);
+            places.for_each(|k| tally.see(1.0, at(k as f64), k != 2));
+            tally
+        };
+        let first: Vec<[f64; 2]> = [0, 1, 3, 4, 5, 6, 7, 8].map(|k| [f64::from(k), 0.0]).to_vec();
+        for parts in [
+            vec![of(0..12)],
+            vec![of(0..5), of(5..12)],
+            vec![of(0..0), of(0..11), of(11..12)],
+        ] {
+            let check = Tally::all(Worst::Largest, parts).check("", "", false, f64::INFINITY);
+            assert_eq!((check.broken, &check.witnesses), (11, &first));
+            assert!(!check.holds && !check.applies && check.bound.is_none());
+        }
+        assert_eq!(of(0..12).check("", "", true, 0.0).witnesses, first);
+        let nothing = Tally::new(Worst::Largest).check("", "", true, 0.0);
+        assert!(nothing.holds && nothing.worst.is_none() && nothing.at.is_none());
+        let mut endless = Tally::new(Worst::Largest);
+        endless.see(f64::INFINITY, at(3.0), true);
+        let endless = endless.check("", "", true, 0.0);
+        assert_eq!((endless.worst, endless.at), (None, Some([3.0, 0.0])));
+    }
+}

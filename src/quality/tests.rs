@@ -6,6 +6,14 @@ use crate::geometry::tolerance::CERTIFICATE;
 use crate::mesh::Piece;
 use proptest::prelude::*;
 
+mod bounds_by_hand;
+mod covering;
+mod hypotheses;
+mod matching;
+mod numbers;
+mod rounding;
+mod structure;
+
 fn p(x: f64, y: f64) -> DVec2 {
     DVec2::new(x, y)
 }

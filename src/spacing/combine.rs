@@ -146,6 +146,48 @@ mod tests {
         assert_eq!(Min::of(equal, BOX).at(DVec2::X), 1.0);
     }
 
+    /// Known by its bounds alone.
+    struct Between(f64, f64);
+
+    impl Spacing for Between {
+        fn at(&self, _: DVec2) -> f64 {
+            self.1
+        }
+
+        fn lipschitz(&self) -> f64 {
+            7.0
+        }
+
+        fn lower_bound(&self, _: Rect) -> f64 {
+            self.0
+        }
+
+        fn upper_bound(&self, _: Rect) -> f64 {
+            self.1
+        }
+    }
+
+    #[test]
+    fn a_part_that_is_nowhere_below_another_is_left_out_and_no_other() {
+        let constant = |low: f64, high: f64, first: bool| {
+            let mut parts: Vec<Arc<dyn Spacing>> = vec![Arc::new(Between(low, high)), Arc::new(Uniform(1.0))];
+            if !first {
+                parts.reverse();
+            }
+            Min::of(parts, BOX).lipschitz()
+        };
+        for first in [true, false] {
+            // Above, touching from above, overlapping, touching from below, below.
+            let found = [(1.5, 2.0), (1.0, 2.0), (0.5, 2.0), (0.5, 1.0), (0.25, 0.5)]
+                .map(|(low, high)| constant(low, high, first));
+            assert_eq!(found, [0.0, 0.0, 7.0, 7.0, 7.0], "{first}");
+        }
+        assert_eq!(
+            Min::of(vec![Arc::new(Between(0.5, 1.0)), Arc::new(Uniform(1.0))], BOX).at(DVec2::X),
+            1.0
+        );
+    }
+
     #[test]
     fn what_is_not_a_number_is_not_hidden() {
         assert!(smaller(f64::NAN, 1.0).is_nan() && smaller(1.0, f64::NAN).is_nan());

@@ -101,3 +101,6 @@ pub fn check_positive(function: &dyn Spacing, domain: &Domain) -> Result<(), Spa
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

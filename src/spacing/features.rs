@@ -161,3 +161,90 @@ impl Features {
         lowest
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn vertex(x: f64, y: f64, index: u32) -> Feature {
+        Feature::new([DVec2::new(x, y); 2], [index; 2])
+    }
+
+    #[test]
+    fn the_margin_is_the_turn_of_both_views_and_at_most_two_radii() {
+        let features = Features::new(vec![vertex(-5.0, 0.0, 0), vertex(0.0, -10.0, 1), vertex(-0.5, 0.0, 2)]);
+        let views = [0, 1, 2].map(|k| features.view(k, DVec2::ZERO));
+        assert_eq!((views[0].distance, views[0].away), (5.0, DVec2::X));
+        assert_eq!((views[1].distance, views[1].away), (10.0, DVec2::Y));
+        // r √2, and ½ r² / (d − r) of each.
+        let expected = 0.5 * 2f64.sqrt() + 0.125 / 4.5 + 0.125 / 9.5;
+        assert!((views[0].margin(&views[1], 0.5) - expected).abs() < 1e-15);
+        // Within the radius the view may turn any way.
+        assert_eq!(
+            (views[0].margin(&views[2], 0.5), views[2].margin(&views[0], 0.625)),
+            (1.0, 1.25)
+        );
+        assert_eq!(features.view(2, DVec2::new(-0.5, 0.0)).away, DVec2::ZERO);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(128))]
+
+        #[test]
+        fn a_distance_gains_no_more_on_another_than_the_margin(
+            ends in prop::collection::vec((-1.0f64..1.0, -1.0f64..1.0), 4),
+            centre in (-1.0f64..1.0, -1.0f64..1.0),
+            radius in 0.01f64..0.5,
+        ) {
+            let ends: Vec<DVec2> = ends.into_iter().map(DVec2::from).collect();
+            let (one, other) = (Feature::new([ends[0], ends[1]], [0, 1]), Feature::new([ends[2], ends[3]], [2, 3]));
+            let features = Features::new(vec![one, other]);
+            prop_assert_eq!((features.len(), features.ends(0)[0]), (2, ends[0]));
+            prop_assert!(features.ends(1)[1].distance(ends[3]) < 1e-15);
+            let lead = |x: DVec2| features.view(1, x).distance - features.view(0, x).distance;
+            let centre = DVec2::from(centre);
+            let margin = features.view(0, centre).margin(&features.view(1, centre), radius);
+            for k in 0..32 {
+                let x = centre + radius * DVec2::from_angle(0.2 * f64::from(k));
+                prop_assert!((lead(x) - lead(centre)).abs() <= margin + 1e-12, "{x}");
+            }
+        }
+    }
+
+    /// Longer lists than the buffer holds give what shorter ones do.
+    #[test]
+    fn long_lists_are_decided_as_short_ones_are() {
+        for count in [
+            2,
+            BUFFER as u32 - 1,
+            BUFFER as u32,
+            BUFFER as u32 + 1,
+            3 * BUFFER as u32,
+        ] {
+            let features = Features::new((0..count).map(|k| vertex(f64::from(k), 0.0, k)).collect());
+            let all: Vec<u32> = (0..count).rev().collect();
+            assert_eq!(features.decide(&all, DVec2::new(0.25, 0.0)), (0.75, [0, 1]));
+        }
+    }
+
+    /// A segment is nearest, and what hangs on its ends is nearer than all that does not.
+    #[test]
+    fn what_hangs_on_one_end_may_stop_the_disk_with_what_hangs_on_the_other() {
+        // A tall U, its bottom from (0, 0) to (4, 0), arms to (0, 9) and (4, 9), and a vertex far away.
+        let corners = [(0.0, 0.0), (4.0, 0.0), (0.0, 9.0), (4.0, 9.0), (50.0, 50.0)].map(DVec2::from);
+        let segments = [[0, 1], [0, 2], [1, 3]];
+        let points = (0..5).map(|k| vertex(corners[k].x, corners[k].y, k as u32));
+        let lines = segments.map(|[a, b]| Feature::new([corners[a], corners[b]], [a as u32, b as u32]));
+        let features = Features::new(points.chain(lines).collect());
+        let all: Vec<u32> = (0..8).collect();
+        // From (2, 1) both arms are 2 away, the vertices at the ends of the bottom √5.
+        let (value, deciding) = features.decide(&all, DVec2::new(2.0, 1.0));
+        assert_eq!((value, deciding), (2.0, [6, 7]));
+        // From (1, ½) the bottom is nearest, then the left arm and corner; the right arm stops the disk at 3.
+        let (value, deciding) = features.decide(&all, DVec2::new(1.0, 0.5));
+        assert!(value == 3.0 && deciding[1] == 7, "{value} {deciding:?}");
+        // From (2, 0), on the bottom, its two ends are 2 away, and so are the arms.
+        assert_eq!(features.decide(&all, DVec2::new(2.0, 0.0)).0, 2.0);
+    }
+}

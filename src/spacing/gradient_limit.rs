@@ -61,7 +61,12 @@ pub fn limit(
             Arc::new(Scaled::new(alpha / own, function))
         });
     }
-    Ok(Arc::new(envelope(function.as_ref(), domain, alpha, factor)?))
+    Ok(Arc::new(envelope(
+        function.as_ref(),
+        domain,
+        [alpha, factor],
+        MAX_CELLS,
+    )?))
 }
 
 /// What became of a cell.
@@ -81,6 +86,8 @@ struct Refinement<'a> {
     domain: &'a Domain,
     alpha: f64,
     factor: f64,
+    /// Most cells that may be looked at.
+    most: usize,
     /// Room for rounding in a lower bound, a length.
     slack: f64,
     samples: Samples,
@@ -88,7 +95,12 @@ struct Refinement<'a> {
     fates: Vec<Fate>,
 }
 
-fn envelope(function: &dyn Spacing, domain: &Domain, alpha: f64, factor: f64) -> Result<Limited, SpacingError> {
+fn envelope(
+    function: &dyn Spacing,
+    domain: &Domain,
+    [alpha, factor]: [f64; 2],
+    most: usize,
+) -> Result<Limited, SpacingError> {
     let bounds = domain.bounds();
     let root = Cell::root(domain);
     let mut refinement = Refinement {
@@ -96,7 +108,8 @@ fn envelope(function: &dyn Spacing, domain: &Domain, alpha: f64, factor: f64) ->
         domain,
         alpha,
         factor,
-        slack: LOWER_BOUND * bounds.min.abs().max(bounds.max.abs()).max_element(),
+        most,
+        slack: LOWER_BOUND * bounds.largest_coordinate(),
         samples: Samples::new(root.rect, alpha),
         lowest: Vec::new(),
         fates: Vec::new(),
@@ -210,10 +223,10 @@ impl Refinement<'_> {
                 next.extend(part);
             }
         }
-        if self.samples.len() > MAX_CELLS {
+        if self.samples.len() > self.most {
             let worst = next[0].rect.centre();
             return Err(SpacingError::TooManyCells {
-                cells: MAX_CELLS,
+                cells: self.most,
                 alpha: self.alpha,
                 x: worst.x,
                 y: worst.y,
@@ -256,6 +269,7 @@ impl Refinement<'_> {
             Fate::Split => (Fate::Split, 0.0),
         }
     }
+
     /// The kept cells with the cells above them, level by level.
     fn pack(&self) -> Vec<Branch> {
         let mut lowest = self.lowest.clone();
@@ -285,3 +299,6 @@ impl Refinement<'_> {
         branches
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -252,3 +252,147 @@ fn number_length(text: &str) -> usize {
     }
     end
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(text: &str, x: f64, y: f64) -> f64 {
+        compile(text)
+            .unwrap_or_else(|error| panic!("{text}: {error}"))
+            .run(x, y)
+    }
+
+    fn told(text: &str) -> String {
+        compile(text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn numbers_have_digits_a_point_and_an_exponent() {
+        for (text, value) in [
+            ("12", 12.0),
+            ("1.", 1.0),
+            (".5", 0.5),
+            ("0.25", 0.25),
+            ("1e2", 100.0),
+            ("1E+2", 100.0),
+            ("25e-2", 0.25),
+            ("1.5e0+1", 2.5),
+            ("2.e1-1", 19.0),
+        ] {
+            assert_eq!(at(text, 0.0, 0.0), value, "{text}");
+        }
+        // What is no exponent is a name.
+        assert_eq!(told("2e"), "column 2: an operator is missing before `e`");
+        assert_eq!(told("2e+x"), "column 2: an operator is missing before `e`");
+        assert_eq!(told("1.5.2"), "column 4: an operator is missing before the number 0.2");
+        assert_eq!(told("x+."), "column 3: `.` is no number");
+        assert_eq!(told("1e999"), "column 1: `1e999` is no number");
+    }
+
+    #[test]
+    fn names_are_letters_digits_and_underlines() {
+        for (text, value) in [
+            ("x", 3.0),
+            ("y", 5.0),
+            ("PI", std::f64::consts::PI),
+            ("pi", std::f64::consts::PI),
+        ] {
+            assert_eq!(at(text, 3.0, 5.0), value);
+        }
+        assert_eq!(at(" E ", 3.0, 5.0), std::f64::consts::E);
+        for name in ["x1", "_x", "x_1", "e", "sine", "ä"] {
+            assert!(
+                told(&format!("1+{name}"))
+                    .starts_with(&format!("column 3: `{name}` is unknown; there are x, y, PI, E, "))
+            );
+        }
+        assert_eq!(told("sin"), "column 4: `(` expected after sin, found the end");
+        assert_eq!(told("x y"), "column 3: an operator is missing before `y`");
+        assert_eq!(told("x, y"), "column 2: an operator is missing before `,`");
+        assert_eq!(told("é é"), told("é"));
+        assert_eq!(told("x $"), "column 3: `$` has no meaning here");
+    }
+
+    #[test]
+    fn signs_add_up() {
+        for (text, value) in [
+            ("-x", -3.0),
+            ("--x", 3.0),
+            ("-+-x", 3.0),
+            ("+x", 3.0),
+            ("---x", -3.0),
+            ("2--x", 5.0),
+            ("2+-x", -1.0),
+        ] {
+            assert_eq!(at(text, 3.0, 5.0), value, "{text}");
+        }
+        for (text, value) in [
+            ("2*-x", -6.0),
+            ("2^-x", 0.125),
+            ("-x^2", -9.0),
+            ("x-y-1", -3.0),
+            ("x/y/2", 0.3),
+            ("x*y+1", 16.0),
+        ] {
+            assert_eq!(at(text, 3.0, 5.0), value, "{text}");
+        }
+    }
+
+    #[test]
+    fn functions_take_the_arguments_they_have() {
+        for (text, value) in [
+            ("min(x, y, 1, 7)", 1.0),
+            ("max(x, y, 1, 7)", 7.0),
+            ("min(x, y)", 3.0),
+            ("pow(x, 2)", 9.0),
+            ("hypot(x+1, y-2)", 5.0),
+            ("abs(x-y)", 2.0),
+            ("sqrt(x+1)", 2.0),
+        ] {
+            assert_eq!(at(text, 3.0, 5.0), value, "{text}");
+        }
+        assert_eq!(
+            told("pow(x, 2, 3)"),
+            "column 9: `)` expected after the arguments of pow, found `,`"
+        );
+        assert_eq!(
+            told("sin(x, y)"),
+            "column 6: `)` expected after the arguments of sin, found `,`"
+        );
+        assert_eq!(
+            told("min(x)"),
+            "column 6: `,` expected between the arguments of min, found `)`"
+        );
+        assert_eq!(
+            told("min(x, y"),
+            "column 9: `)` expected after the arguments of min, found the end"
+        );
+    }
+
+    #[test]
+    fn parentheses_and_powers_nest_so_deep_and_no_deeper() {
+        // A pair opens a sum and a power, of which there may be 64 at once.
+        let pairs = |count: usize| format!("{}x{}", "(".repeat(count), ")".repeat(count));
+        assert_eq!(at(&pairs(31), 3.0, 5.0), 3.0);
+        assert_eq!(told(&pairs(32)), "column 33: the expression is nested too deeply");
+        assert_eq!(
+            told(&format!("{}1", "1^".repeat(70))),
+            "column 127: the expression is nested too deeply"
+        );
+        // One after another there may be any number.
+        assert_eq!(at(&format!("{}0", "(x)^1+".repeat(100)), 3.0, 5.0), 300.0);
+    }
+
+    #[test]
+    fn columns_count_characters() {
+        assert_eq!(told("  1 + é"), told("  1 + é").replace("column 6", "column 7"));
+        assert!(told("  1 + é").starts_with("column 7: `é`"));
+        assert!(told("x+§").starts_with("column 3: `§` has no meaning"));
+        let error = compile("1+)").unwrap_err();
+        assert_eq!(
+            (error.column, error.message.as_str()),
+            (3, "a number, x, y or a function expected, found `)`")
+        );
+    }
+}

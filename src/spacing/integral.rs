@@ -80,7 +80,7 @@ pub fn integrate(function: &dyn Spacing, domain: &Domain, tolerance: f64) -> Res
         .into_par_iter()
         .map(|triangle| Part::new(function, triangle, rule(function, &triangle)?, 0.0))
         .collect::<Result<_, _>>()?;
-    refine(function, parts, tolerance)
+    refine(function, parts, tolerance, MAX_EVALUATIONS)
 }
 
 /// The number of triangles if all were equilateral with edges c_b f: `integral` · 4 / (√3 c_b²).
@@ -90,8 +90,9 @@ pub fn estimate_triangles(integral: f64, c_b: f64) -> f64 {
     integral * 4.0 / (3f64.sqrt() * c_b * c_b)
 }
 
-/// Splits the parts with the largest errors until all errors together are within the tolerance.
-fn refine(function: &dyn Spacing, mut parts: Vec<Part>, tolerance: f64) -> Result<Integral, SpacingError> {
+/// Splits the parts with the largest errors until all errors together are within the tolerance, or f was evaluated more
+/// than `most` times.
+fn refine(function: &dyn Spacing, mut parts: Vec<Part>, tolerance: f64, most: usize) -> Result<Integral, SpacingError> {
     let mut evaluations = parts.len() * EVALUATIONS_A_PART;
     loop {
         let value = sum(parts.iter().map(|part| part.quarters.iter().sum()));
@@ -106,7 +107,7 @@ fn refine(function: &dyn Spacing, mut parts: Vec<Part>, tolerance: f64) -> Resul
                 evaluations,
             });
         }
-        if evaluations > MAX_EVALUATIONS {
+        if evaluations > most {
             return Err(SpacingError::NotConverged {
                 tolerance,
                 error: error / value,

@@ -102,3 +102,64 @@ impl Spacing for Limited {
         (self.at(cell.centre()) - self.alpha * 0.5 * cell.diagonal()).max(self.branches[0].lowest)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const ROOT: Rect = Rect {
+        min: DVec2::new(1.0, 2.0),
+        max: DVec2::new(3.0, 4.0),
+    };
+
+    /// Splits the cells that `choices` name, one after another; `values` are those of the cells without parts. Returns the
+    /// terms too.
+    fn limited(choices: &[usize], values: &[f64], alpha: f64) -> (Limited, Vec<(Rect, f64)>) {
+        let mut cells = vec![(ROOT, 0..0)];
+        for choice in choices {
+            let leaves: Vec<usize> = (0..cells.len()).filter(|&k| cells[k].1.is_empty()).collect();
+            let split = leaves[choice % leaves.len()];
+            let quarters = cells[split].0.quarters().into_iter().skip(choice % 3);
+            let first = cells.len();
+            cells.extend(quarters.map(|rect| (rect, 0..0)));
+            cells[split].1 = first..cells.len();
+        }
+        let mut lowest: Vec<f64> = (0..cells.len()).map(|k| values[k % values.len()]).collect();
+        for k in (0..cells.len()).rev().filter(|&k| !cells[k].1.is_empty()) {
+            lowest[k] = lowest[cells[k].1.clone()].iter().copied().fold(f64::INFINITY, f64::min);
+        }
+        let terms = (0..cells.len())
+            .filter(|&k| cells[k].1.is_empty())
+            .map(|k| (cells[k].0, lowest[k]));
+        let terms = terms.collect();
+        let branches = cells
+            .iter()
+            .zip(&lowest)
+            .map(|((cell, parts), lowest)| Branch::new(*cell, *lowest, parts.clone()));
+        (Limited::new(alpha, branches.collect()), terms)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(96))]
+
+        #[test]
+        fn f_is_the_minimum_over_its_terms(
+            choices in prop::collection::vec(0usize..1000, 0..20),
+            values in prop::collection::vec(0.1f64..1.0, 97),
+            x in (0.0f64..4.0, 1.0f64..5.0),
+        ) {
+            let (limited, terms) = limited(&choices, &values, 0.6);
+            let at = |x: DVec2| terms.iter().map(|(cell, v)| v + 0.6 * cell.distance(x)).fold(9.0, f64::min);
+            let x = DVec2::new(x.0, x.1);
+            prop_assert!((limited.at(x) - at(x)).abs() < 1e-15, "{} {}", limited.at(x), at(x));
+            prop_assert_eq!(limited.size(), (terms.len(), choices.len()));
+            prop_assert_eq!(limited.lipschitz(), 0.6);
+            // No lower than α allows from the centre, nor than the lowest term.
+            let cell = Rect { min: x, max: x + DVec2::new(0.3, 0.4) };
+            let lowest = terms.iter().map(|term| term.1).fold(9.0, f64::min);
+            let expected = (at(cell.centre()) - 0.6 * 0.25).max(lowest);
+            prop_assert!((limited.lower_bound(cell) - expected).abs() < 1e-15);
+        }
+    }
+}

@@ -227,12 +227,79 @@ mod tests {
     }
 
     #[test]
+    fn min_may_have_any_number_of_mins_beside_one_another() {
+        let many = format!("min({})", vec!["min(lfs, lfs)"; 10 * NESTING].join(", "));
+        assert!(matches!(Spec::parse(&many), Ok(Spec::Min(parts)) if parts.len() == 10 * NESTING));
+        assert!(Spec::parse(&format!("min(lfs, {many})")).is_ok());
+    }
+
+    #[test]
     fn a_size_is_divided_by_c_b() {
         assert_eq!(spec_for_size(" 0.1+x ", 0.5).unwrap(), "expr:(0.1+x)/0.5");
         let error = spec_for_size("0.1+", 0.5).unwrap_err().to_string();
         assert_eq!(
             error,
             "spacing `0.1+`, column 5: a number, x, y or a function expected, found the end"
+        );
+    }
+
+    #[test]
+    fn columns_count_characters_from_the_start_of_the_whole() {
+        let error = |text: &str| Spec::parse(text).unwrap_err().to_string();
+        for (text, column, message) in [
+            ("  uniform:0", 11, "a positive number expected after `uniform:`"),
+            ("uniform:inf", 9, "a positive number expected after `uniform:`"),
+            ("uniform:nan", 9, "a positive number expected after `uniform:`"),
+            ("uniform:", 9, "a positive number expected after `uniform:`"),
+            ("expr:x+*y", 8, "a number, x, y or a function expected, found `*`"),
+            (" expr: 1+", 10, "a number, x, y or a function expected, found the end"),
+            ("min(lfs, uniform:x)", 18, "a positive number expected after `uniform:`"),
+            ("min(expr:x §, lfs)", 12, "`§` has no meaning here"),
+            ("min (lfs)", 9, "`min` takes two or more"),
+            ("min(lfs, min(lfs))", 17, "`min` takes two or more"),
+            ("min(lfs, lfs) ;", 14, "nothing expected after `min(…)`"),
+            (" min(lfs, lfs", 14, "`)` expected to end `min(`"),
+            ("min(lfs, expr:(x)", 18, "`)` expected to end `min(`"),
+        ] {
+            assert_eq!(error(text), format!("spacing `{text}`, column {column}: {message}"));
+        }
+        for (text, kind) in [
+            ("", ""),
+            ("min", "min"),
+            ("min(lfs,, lfs)", ""),
+            ("min(lfs, LFS)", "LFS"),
+            ("minimum(lfs, lfs)", "minimum(lfs, lfs)"),
+        ] {
+            let told = Spec::parse(text).unwrap_err();
+            assert!(
+                matches!(&told, SpacingError::UnknownKind { kind: found, .. } if found == kind),
+                "{text}: {told}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_spec_is_capped_where_lfs_is_a_part_of_it() {
+        for (text, is_capped) in [
+            ("lfs", true),
+            ("uniform:1", false),
+            ("expr:x", false),
+            ("min(uniform:1, expr:x)", false),
+            ("min(uniform:1, lfs)", true),
+            ("min(uniform:1, min(expr:x, lfs))", true),
+        ] {
+            assert_eq!(Spec::parse(text).unwrap().is_capped(), is_capped, "{text}");
+        }
+    }
+
+    #[test]
+    fn commas_and_parentheses_of_expressions_are_their_own() {
+        let spec = Spec::parse(" min ( expr:max(x, (y)), min(lfs, uniform:2 ) , expr:(x)*(y) )").unwrap();
+        let expression = |text: &str| Spec::Expression(text.to_owned());
+        let inner = Spec::Min(vec![Spec::Lfs, Spec::Uniform(2.0)]);
+        assert_eq!(
+            spec,
+            Spec::Min(vec![expression("max(x, (y))"), inner, expression("(x)*(y)")])
         );
     }
 }

@@ -322,3 +322,6 @@ impl Number for Interval {
         self.power(exponent)
     }
 }
+
+#[cfg(test)]
+mod tests;

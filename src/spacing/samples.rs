@@ -122,3 +122,83 @@ impl Samples {
         best
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spacing::testing::pseudo_random_points;
+    use proptest::prelude::*;
+
+    const ROOT: Rect = Rect {
+        min: DVec2::ZERO,
+        max: DVec2::ONE,
+    };
+
+    /// Splits the cells that `choices` name, one after another, and sets a sample in every cell.
+    fn tree(choices: &[usize], values: &[f64], alpha: f64) -> Samples {
+        let mut samples = Samples::new(ROOT, alpha);
+        for choice in choices {
+            let leaves: Vec<usize> = (0..samples.len())
+                .filter(|&node| samples.children(node).is_empty())
+                .collect();
+            let node = leaves[choice % leaves.len()];
+            // Some quarters may be outside the domain.
+            let quarters = samples.cell(node).quarters().into_iter().skip(choice % 3);
+            let cells: Vec<Cell> = quarters
+                .map(|rect| Cell {
+                    rect,
+                    crossing: Vec::new(),
+                })
+                .collect();
+            samples.add_children(node, &cells);
+        }
+        let places = pseudo_random_points(samples.len());
+        for (node, place) in places.into_iter().enumerate() {
+            let cell = samples.cell(node);
+            samples.set(node, cell.min + place * cell.size(), values[node % values.len()]);
+        }
+        samples
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn the_lowest_is_that_of_looking_at_all_samples(
+            choices in prop::collection::vec(0usize..1000, 0..20),
+            values in prop::collection::vec(0.1f64..10.0, 97),
+            x in (-0.5f64..1.5, -0.5f64..1.5),
+            alpha in prop::sample::select(vec![0.7, 7.0]),
+        ) {
+            let (samples, x) = (tree(&choices, &values, alpha), DVec2::new(x.0, x.1));
+            let all = samples.nodes.iter().map(|node| node.value + alpha * node.at.distance(x));
+            let expected = all.fold(99.0, f64::min);
+            for near in [0, samples.len() / 2, samples.len() - 1] {
+                prop_assert_eq!(samples.lowest_at(x, near), expected);
+            }
+        }
+
+        #[test]
+        fn every_node_knows_its_children_and_the_lowest_value_below_it(
+            choices in prop::collection::vec(0usize..1000, 0..20),
+            values in prop::collection::vec(0.1f64..1.0, 97),
+        ) {
+            let samples = tree(&choices, &values, 0.7);
+            prop_assert_eq!(samples.len(), 1 + choices.iter().map(|choice| 4 - choice % 3).sum::<usize>());
+            let mut parents = vec![0; samples.len()];
+            for node in 0..samples.len() {
+                for child in samples.children(node) {
+                    parents[child] = node;
+                    let (inner, outer) = (samples.cell(child), samples.cell(node));
+                    prop_assert_eq!(2.0 * inner.size(), outer.size());
+                    prop_assert!(outer.contains(inner.min) && outer.contains(inner.max));
+                }
+            }
+            let mut lowest: Vec<f64> = samples.nodes.iter().map(|node| node.value).collect();
+            for node in (1..samples.len()).rev() {
+                lowest[parents[node]] = lowest[parents[node]].min(lowest[node]);
+            }
+            prop_assert_eq!(samples.nodes.iter().map(|node| node.lowest).collect::<Vec<_>>(), lowest);
+        }
+    }
+}

@@ -162,7 +162,7 @@ fn cut(
 }
 
 /// Tells where f is smallest, of all ends and middles of segments: lfs has its minima there.
-fn narrowest(function: &dyn Spacing, domain: &Domain) -> SpacingError {
+pub(super) fn narrowest(function: &dyn Spacing, domain: &Domain) -> SpacingError {
     let places = (0..domain.segments().len())
         .map(|s| domain.ends(s))
         .flat_map(|[a, b]| [a, a.midpoint(b), b]);
@@ -178,7 +178,7 @@ fn narrowest(function: &dyn Spacing, domain: &Domain) -> SpacingError {
 }
 
 /// The corner at which the longest edge starts; of equals the first.
-fn longest_edge(triangle: &Triangle) -> usize {
+pub(super) fn longest_edge(triangle: &Triangle) -> usize {
     let length = |corner: usize| triangle[corner].distance_squared(triangle[(corner + 1) % 3]);
     (1..3).fold(
         0,
@@ -187,7 +187,7 @@ fn longest_edge(triangle: &Triangle) -> usize {
 }
 
 /// The two halves on either side of the middle of the longest edge.
-fn bisect(triangle: &Triangle) -> [Triangle; 2] {
+pub(super) fn bisect(triangle: &Triangle) -> [Triangle; 2] {
     let start = longest_edge(triangle);
     let [a, b, c] = [0, 1, 2].map(|offset| triangle[(start + offset) % 3]);
     let middle = 0.5 * (a + b);

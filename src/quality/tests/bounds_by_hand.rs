@@ -1,0 +1,180 @@
+//! The paper's bounds and what they are held against, on meshes small enough to work out.
+
+use super::*;
+
+fn check(domain: &Domain, mesh: &Mesh, bounds: &Bounds, claim: &str) -> Check {
+    judge(domain, mesh, Some(bounds)).1.check(claim).unwrap().clone()
+}
+
+fn assert_near(found: Option<f64>, expected: f64, what: &str) {
+    let found = found.unwrap_or(f64::NAN);
+    assert!(
+        (found - expected).abs() <= 1e-12 * expected.abs().max(1.0),
+        "{what}: {found}, expected {expected}"
+    );
+}
+
+#[test]
+fn every_bound_is_what_the_paper_says_for_t_a_quarter_and_c_b_a_half() {
+    let spacing = Linear {
+        base: 1.0,
+        slope: p(0.0, 0.5),
+    };
+    let bounds = Bounds {
+        integral: Some(2.0),
+        integral_error: 0.25,
+        ..bounds(&spacing, 0.5)
+    };
+    let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds));
+    for (claim, expected) in [
+        ("packing-disjoint", 1.0),
+        ("coverage", 0.0),
+        // (9): ¾ √((1/16 − 1 + 7) (1 − 1/16)) / 4.
+        ("boundary-height", 0.75 * (97f64 * 15.0).sqrt() / 64.0),
+        ("min-angle", 0.25f64.asin().to_degrees()),
+        ("min-angle-beyond-corners", 0.25f64.asin().to_degrees()),
+        ("corner-angles", 1.0),
+        ("nn-vertex-lower", 0.375),
+        ("nn-vertex-upper", 4.0 / 3.0),
+        ("nn-point-lower", 0.2),
+        ("nn-point-upper", 22.0 / 9.0),
+        // (9/16) · 2 / (π / 4), less a quarter, and 4 · (25/16) · 2 / (π / 4), and a quarter.
+        ("vertices-lower", 3.375 / std::f64::consts::PI),
+        ("vertices-upper", 62.5 / std::f64::consts::PI),
+    ] {
+        assert_near(certificate.check(claim).unwrap().bound, expected, claim);
+    }
+}
+
+#[test]
+fn without_t_under_1_there_is_no_upper_bound() {
+    for (slope, is_bounded) in [(0.875, true), (1.0, false), (2.0, false)] {
+        let spacing = Linear {
+            base: 1.0,
+            slope: p(0.0, slope),
+        };
+        let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&spacing, 1.0)));
+        for claim in ["nn-vertex-upper", "nn-point-upper"] {
+            let check = certificate.check(claim).unwrap();
+            assert_eq!(check.bound.is_some(), is_bounded, "{claim}, t = {slope}");
+            assert!(check.holds && check.applies == is_bounded);
+        }
+        let lowest = certificate.check("vertices-lower").unwrap().bound;
+        assert_near(
+            lowest,
+            (1.0 - slope).max(0.0).powi(2) / std::f64::consts::PI,
+            "vertices-lower",
+        );
+        assert_eq!(certificate.check("vertices-lower").unwrap().applies, is_bounded);
+    }
+}
+
+/// nn is the distance to the nearest other vertex, at a vertex; elsewhere to the second nearest.
+#[test]
+fn ratios_of_nn_are_those_of_a_graded_spacing() {
+    let spacing = Linear {
+        base: 1.0,
+        slope: p(0.0, 0.5),
+    };
+    let (square, fan) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
+    let worst = |claim: &str| check(&square, &fan, &bounds(&spacing, 0.5), claim).worst;
+    let half = 0.5f64.sqrt();
+    assert_near(worst("nn-vertex-lower"), half / 1.5, "upper corners");
+    assert_near(worst("nn-vertex-upper"), half, "lower corners");
+    // Middles of spokes at heights ¼ and ¾, of sides at 0, ½ and 1, which are circumcentres too.
+    assert_near(worst("nn-point-lower"), 0.5 * half / 1.375, "upper spokes");
+    assert_near(worst("nn-point-upper"), 0.5, "the lower side");
+    // c_p = ½ / (2 + ¼), and the upper corners are nearest to the middle for their size.
+    assert_near(worst("packing-disjoint"), half / (2.0 / 9.0 * 2.75), "upper spokes");
+}
+
+#[test]
+fn centres_are_granted_the_rounding_of_their_coordinates() {
+    let half = 0.5f64.sqrt();
+    // Relative room: a billionth, and at coordinates of a million 10 ulp, 2.22e-9, over what they are compared with.
+    for (claim, c_b, at_origin, far_away) in [
+        ("packing-disjoint", half, 1e-9, 4.14e-9),
+        ("nn-vertex-lower", half, 1e-9, 4.14e-9),
+        ("nn-vertex-upper", -0.5 * half, 1e-9, 4.14e-9),
+        ("nn-point-lower", half, 1e-9, 7.28e-9),
+        ("nn-point-upper", -0.5 / 3.0, 1e-9, 5.44e-9),
+    ] {
+        for (shift, room) in [(0.0, at_origin), (1e6, far_away)] {
+            let far = |points: &[DVec2]| points.iter().map(|x| *x + DVec2::splat(shift)).collect::<Vec<_>>();
+            let mut mesh = fan(p(0.5, 0.5));
+            mesh.points = far(&mesh.points);
+            let square = domain(&far(&SQUARE), &[]);
+            // c_b is negative where the claim breaks as it falls; of c_b and f only the product counts.
+            for (share, holds, f) in [
+                (0.95, true, 1.0),
+                (1.05, false, 1.0),
+                (0.95, true, 4.0),
+                (1.05, false, 4.0),
+            ] {
+                let c_b = c_b.abs() / f * (1.0 + c_b.signum() * share * room);
+                let spacing = Linear { base: f, ..UNIFORM };
+                let found = check(&square, &mesh, &bounds(&spacing, c_b), claim);
+                assert_eq!(found.holds, holds, "{claim} at {shift}, {share} of the room: {found:?}");
+            }
+        }
+    }
+}
+
+/// Vertices by the share of their packing circles that surely lies in the domain.
+#[test]
+fn packing_circles_count_by_what_surely_lies_inside() {
+    let shares = |ring: &[DVec2], inner: &[DVec2], points: &[DVec2], c_b: f64| {
+        let (domain, mesh) = (domain(ring, inner), mesh(&[ring, points].concat(), &[]));
+        check(&domain, &mesh, &bounds(&UNIFORM, c_b), "vertices-upper").worst
+    };
+    // c_p = 0.1. Four corners make one circle.
+    assert_near(shares(&SQUARE, &[], &[], 0.2), 1.0, "corners");
+    for (point, share) in [
+        (p(0.5, 0.5), 1.0),
+        (p(0.5, 0.0), 0.5),
+        (p(0.5, 0.05), 0.5),
+        (p(0.05, 0.5), 0.5),
+        (p(0.5, 0.101), 1.0),
+        (p(0.05, 0.06), 0.0),
+    ] {
+        assert_near(shares(&SQUARE, &[], &[point], 0.2), 1.0 + share, &point.to_string());
+    }
+    // Inside, segments do not count; at the ends of one, its two angles do.
+    let across = [SQUARE[0], SQUARE[2]];
+    assert_near(
+        shares(&SQUARE, &across, &[p(0.5, 0.5)], 0.2),
+        2.0,
+        "on an inner segment",
+    );
+    // Circles of corners that meet further sides may lie outside.
+    assert_near(shares(&SQUARE, &[], &[], 2.5), 0.0, "large circles");
+    let bar = [p(0.0, 0.0), p(9.0, 0.0), p(9.0, 0.5), p(0.0, 0.5), p(0.0, 0.2)];
+    // Corners below and right count a quarter, the straight one a half; those 0.3 and 0.2 from it meet a third side or do not.
+    assert_near(shares(&bar, &[], &[], 0.3), 1.5, "a straight corner");
+    assert_near(shares(&bar, &[], &[], 0.5), 0.75, "a third side");
+    let l = [
+        p(0.0, 0.0),
+        p(2.0, 0.0),
+        p(2.0, 1.0),
+        p(1.0, 1.0),
+        p(1.0, 2.0),
+        p(0.0, 2.0),
+    ];
+    assert_near(shares(&l, &[], &[], 0.2), 5.0 * 0.25 + 0.75, "an inward corner");
+    // Graded, t = 1 and so c_p = 1/6: (½, y) has f = 1 + 2y, a circle that stays within up to y = ¼ and not above.
+    let graded = Linear {
+        base: 1.0,
+        slope: p(0.0, 2.0),
+    };
+    for (y, share) in [(0.2, 0.5), (0.24, 0.5), (0.26, 1.0), (0.3, 1.0)] {
+        let points = [&SQUARE[..], &[p(0.5, y)]].concat();
+        let found = check(
+            &domain(&SQUARE, &[]),
+            &mesh(&points, &[]),
+            &bounds(&graded, 0.5),
+            "vertices-upper",
+        )
+        .worst;
+        assert_near(found, 1.0 + share, "graded");
+    }
+}

@@ -1,0 +1,199 @@
+//! What the bounds need, at the edge of it.
+
+use super::*;
+
+const RIGHT: Hypotheses = Hypotheses {
+    t: 0.3,
+    c_b: 0.5,
+    lfs_cap: true,
+    smallest_segment_angle_deg: 90.0,
+    low_head_on: 0,
+    single_corners: true,
+};
+
+/// The claims that do not follow.
+fn missing(hypotheses: Hypotheses) -> Vec<&'static str> {
+    CLAIMS.into_iter().filter(|claim| !hypotheses.imply(claim)).collect()
+}
+
+#[test]
+fn every_claim_needs_what_the_table_says() {
+    let angles = ["boundary-height", "min-angle"];
+    let of_section_6 = [angles[0], angles[1], "min-angle-beyond-corners"];
+    let of_packing = [
+        "packing-disjoint",
+        "boundary-height",
+        "min-angle",
+        "min-angle-beyond-corners",
+        "nn-vertex-lower",
+        "nn-vertex-upper",
+        "nn-point-lower",
+        "nn-point-upper",
+        "vertices-upper",
+    ];
+    let third = 1.0 / 3.0f64;
+    for (hypotheses, expected) in [
+        (RIGHT, &[][..]),
+        (Hypotheses { t: third, ..RIGHT }, &[]),
+        (
+            Hypotheses {
+                t: third.next_up(),
+                ..RIGHT
+            },
+            &of_section_6,
+        ),
+        (Hypotheses { c_b: 1.0, ..RIGHT }, &[]),
+        (
+            Hypotheses {
+                c_b: 1f64.next_up(),
+                ..RIGHT
+            },
+            &of_packing,
+        ),
+        (
+            Hypotheses {
+                lfs_cap: false,
+                ..RIGHT
+            },
+            &of_packing,
+        ),
+        (
+            Hypotheses {
+                low_head_on: 1,
+                ..RIGHT
+            },
+            &["min-angle"],
+        ),
+        (
+            Hypotheses {
+                single_corners: false,
+                ..RIGHT
+            },
+            &["corner-angles"],
+        ),
+        (
+            Hypotheses {
+                smallest_segment_angle_deg: 90.0 - 0.9e-6,
+                ..RIGHT
+            },
+            &[],
+        ),
+        (
+            Hypotheses {
+                smallest_segment_angle_deg: 90.0 - 1.1e-6,
+                ..RIGHT
+            },
+            &angles,
+        ),
+    ] {
+        assert_eq!(missing(hypotheses), expected, "{hypotheses:?}");
+    }
+    // At t = 1 there is neither cover nor nn; only what needs no t, and just below only what needs t ≤ 1/3 is missing.
+    let steep = Hypotheses {
+        t: 1f64.next_down(),
+        ..RIGHT
+    };
+    assert_eq!(missing(steep), of_section_6);
+    for t in [1.0, 1.5] {
+        let told = CLAIMS
+            .into_iter()
+            .filter(|claim| Hypotheses { t, ..RIGHT }.imply(claim));
+        assert_eq!(
+            told.collect::<Vec<_>>(),
+            ["packing-disjoint", "corner-angles", "vertices-upper"]
+        );
+    }
+}
+
+/// A spacing that is flat comes down to corners only where it need not.
+#[test]
+fn corners_of_a_flat_spacing_can_be_cut_only_where_circles_leave_room_and_no_angle_is_small() {
+    let holds = |hypotheses: Hypotheses| hypotheses.imply("min-angle-beyond-corners");
+    let flat = Hypotheses { t: 0.03125, ..RIGHT };
+    assert!(holds(flat) && holds(Hypotheses { c_b: 0.96875, ..flat }));
+    assert!(!holds(Hypotheses { c_b: 0.97, ..flat }));
+    assert!(!holds(Hypotheses {
+        smallest_segment_angle_deg: 80.0,
+        ..flat
+    }));
+    for t in [FLAT_T, 0.3] {
+        assert!(holds(Hypotheses {
+            t,
+            c_b: 0.97,
+            smallest_segment_angle_deg: 80.0,
+            ..RIGHT
+        }));
+    }
+}
+
+#[test]
+fn hypotheses_are_those_of_domain_and_spacing() {
+    let spacing = Linear {
+        base: 1.0,
+        slope: p(0.3, 0.4),
+    };
+    let square = domain(&SQUARE, &[]);
+    let bounds = Bounds {
+        lfs_cap: false,
+        ..bounds(&spacing, 0.25)
+    };
+    let expected = Hypotheses {
+        t: 0.125,
+        c_b: 0.25,
+        lfs_cap: false,
+        low_head_on: 7,
+        ..RIGHT
+    };
+    assert_eq!(Hypotheses::of(&square, &bounds, 7), expected);
+    // A vertex with two angles inside is single only if both are 90° or more.
+    let single = |domain: &Domain| Hypotheses::of(domain, &bounds, 0).single_corners;
+    assert!(!single(&domain(&SQUARE, &[SQUARE[0], SQUARE[2]])));
+    let ring = [SQUARE[0], p(0.5, 0.0), SQUARE[1], SQUARE[2], p(0.5, 1.0), SQUARE[3]];
+    assert!(single(&domain(&ring, &[ring[1], ring[4]])));
+    assert!(!single(&domain(&ring, &[ring[0], ring[4]])));
+}
+
+#[test]
+fn the_angle_bound_is_that_of_theorem_6_8() {
+    let bounds = [0.0, 0.25, 0.5, 0.75].map(min_angle_bound_deg);
+    let expected = [30.0, 14.477_512_185_929_925, 0.0, 0.0];
+    for (found, expected) in bounds.into_iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    }
+}
+
+#[test]
+fn a_certificate_lists_what_applies_and_does_not_hold() {
+    let check = |claim: &str, applies, holds| Check {
+        claim: claim.to_owned(),
+        lemma: String::new(),
+        applies,
+        worst: None,
+        bound: None,
+        holds,
+        broken: usize::from(!holds),
+        at: None,
+        witnesses: Vec::new(),
+    };
+    let checks = vec![
+        check("fine", true, true),
+        check("broken", true, false),
+        check("measured", false, false),
+        check("idle", false, true),
+    ];
+    let certificate = Certificate {
+        holds: false,
+        excused: 0,
+        low_head_on: 0,
+        checks,
+    };
+    assert_eq!(
+        certificate
+            .broken()
+            .map(|check| check.claim.as_str())
+            .collect::<Vec<_>>(),
+        ["broken"]
+    );
+    assert_eq!(certificate.check("measured"), Some(&certificate.checks[2]));
+    assert_eq!(certificate.check("other"), None);
+}

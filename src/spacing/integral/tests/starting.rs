@@ -1,0 +1,160 @@
+//! The triangles and pieces that integration starts from.
+
+use super::super::start::{base, bisect, cut, inner_points, longest_edge, narrowest, triangles};
+use super::*;
+
+fn area([a, b, c]: &Triangle) -> f64 {
+    0.5 * (*b - *a).perp_dot(*c - *a)
+}
+
+fn longest(triangle: &Triangle) -> f64 {
+    (0..3)
+        .map(|k| triangle[k].distance(triangle[(k + 1) % 3]))
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn the_longest_edge_is_cut_in_its_middle() {
+    let corners = [(0.0, 0.0), (4.0, 0.0), (1.0, 1.0)].map(DVec2::from);
+    for turned in 0..3 {
+        let triangle = [0, 1, 2].map(|k| corners[(k + turned) % 3]);
+        assert_eq!(triangle[longest_edge(&triangle)], corners[0], "turned by {turned}");
+        let halves = bisect(&triangle);
+        let expected = [
+            [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0)],
+            [(2.0, 0.0), (4.0, 0.0), (1.0, 1.0)],
+        ];
+        assert_eq!(halves, expected.map(|corners| corners.map(DVec2::from)));
+    }
+    // Of equals the first.
+    let even = [(0.0, 0.0), (2.0, 0.0), (1.0, 2.0)].map(DVec2::from);
+    assert_eq!(longest_edge(&even), 1);
+    assert_eq!(longest_edge(&[even[1], even[2], even[0]]), 0);
+    assert_eq!(longest_edge(&[even[2], even[0], even[1]]), 0);
+}
+
+#[test]
+fn triangles_are_cut_until_none_is_longer_than_f_over_its_constant_and_no_further() {
+    let domain = gallery("l-shape");
+    let whole = base(&domain, |_, _| Ok(Some(Vec::new()))).unwrap().unwrap();
+    let reach = |x: DVec2| 0.1 + 0.2 * x.x;
+    let cut_to = |most: usize| cut(whole.clone(), |x| Ok(reach(x)), most).unwrap();
+    let parts = cut_to(usize::MAX).unwrap();
+    assert!(
+        parts
+            .iter()
+            .all(|part| longest(part) <= reach(centroid(part)) && area(part) > 0.0)
+    );
+    assert!((parts.iter().map(area).sum::<f64>() - domain.area()).abs() < 1e-12);
+    // Each is a half of one that was too long.
+    assert!(parts.iter().all(|part| longest(part) > 0.3 * reach(centroid(part))));
+    let count = parts.len();
+    assert!(count > whole.len() && cut_to(count).is_some() && cut_to(count - 1).is_none());
+    let refused = cut(
+        whole.clone(),
+        |x| {
+            Err(SpacingError::NotPositive {
+                value: 0.0,
+                x: x.x,
+                y: x.y,
+            })
+        },
+        9,
+    );
+    assert!(refused.is_err());
+}
+
+#[test]
+fn segments_are_cut_into_pieces_no_longer_than_f_over_its_constant() {
+    let (a, b) = (DVec2::new(1.0, 2.0), DVec2::new(4.0, 6.0));
+    let reach = |x: DVec2| 0.05 + 0.1 * (x.x - 1.0);
+    let points = |room: usize| inner_points([a, b], |x| Ok(reach(x)), room).unwrap();
+    let inner = points(usize::MAX).unwrap();
+    let chain: Vec<DVec2> = [&[a], &inner[..], &[b]].concat();
+    for piece in chain.windows(2) {
+        let (length, most) = (piece[0].distance(piece[1]), reach(piece[0].midpoint(piece[1])));
+        assert!(length <= most && length > 0.2 * most, "{piece:?}");
+        assert!((piece[1] - piece[0]).dot(b - a) > 0.0 && (piece[1] - a).perp_dot(b - a).abs() < 1e-12);
+    }
+    assert_eq!(inner_points([a, b], |_| Ok(5.0), 0).unwrap(), Some(Vec::new()));
+    // Room for the pieces that are still looked at, too.
+    assert_eq!(points(inner.len() + 1), Some(inner.clone()));
+    assert_eq!(points(inner.len() - 1), None);
+    // Where f vanishes, points end where coordinates do.
+    let fine = inner_points([DVec2::ONE, DVec2::ONE + 8.0 * f64::EPSILON], |_| Ok(0.0), 100)
+        .unwrap()
+        .unwrap();
+    assert_eq!(
+        fine,
+        (1..8)
+            .map(|k| DVec2::ONE + f64::from(k) * f64::EPSILON)
+            .collect::<Vec<_>>()
+    );
+    assert_eq!(inner_points([a, b], |_| Ok(0.0), 1000).unwrap(), None);
+}
+
+#[test]
+fn further_points_are_vertices_of_the_triangulation() {
+    let domain = gallery("unit-square");
+    let middles = base(&domain, |[a, b], _| Ok(Some(vec![a.midpoint(b)])))
+        .unwrap()
+        .unwrap();
+    // Eight vertices on the boundary and none inside.
+    assert_eq!(middles.len(), 6);
+    assert!((middles.iter().map(area).sum::<f64>() - 1.0).abs() < 1e-15);
+    assert_eq!(base(&domain, |_, _| Ok(None)).unwrap(), None);
+    assert!(base(&domain, |_, _| Err(SpacingError::NoFeatures)).is_err());
+}
+
+#[test]
+fn triangles_are_no_longer_than_a_share_of_the_domain_either() {
+    let domain = gallery("unit-square");
+    let coarsest = domain.bounds().diagonal() / 32.0;
+    for (f, reach) in [(Uniform(1.0), coarsest), (Uniform(1e-3), coarsest)] {
+        let parts = triangles(&f, &domain).unwrap();
+        assert!(
+            parts
+                .iter()
+                .all(|part| longest(part) <= reach && longest(part) > 0.4 * reach)
+        );
+    }
+    let steep = Quintic([1.0, 1.0]);
+    assert!(
+        triangles(&steep, &domain)
+            .unwrap()
+            .iter()
+            .all(|part| longest(part) <= coarsest)
+    );
+    let graded = Expression::new("0.05+4*x", domain.bounds()).unwrap();
+    let parts = triangles(&graded, &domain).unwrap();
+    let reach = |part: &Triangle| coarsest.min(graded.at(centroid(part)) / graded.lipschitz());
+    assert!(
+        parts
+            .iter()
+            .all(|part| longest(part) <= reach(part) && longest(part) > 0.3 * reach(part))
+    );
+}
+
+#[test]
+fn where_there_are_too_many_the_smallest_f_along_the_boundary_is_told() {
+    let domain = gallery("unit-square");
+    // Smallest in the middle of the right side.
+    let f = Expression::new("0.1+(x-1)^2+(y-0.5)^2", domain.bounds()).unwrap();
+    assert_eq!(
+        narrowest(&f, &domain),
+        SpacingError::TooSmall {
+            value: 0.1,
+            x: 1.0,
+            y: 0.5
+        }
+    );
+    let f = Expression::new("0.1+x+y", domain.bounds()).unwrap();
+    assert_eq!(
+        narrowest(&f, &domain),
+        SpacingError::TooSmall {
+            value: 0.1,
+            x: 0.0,
+            y: 0.0
+        }
+    );
+}
