@@ -70,7 +70,9 @@ pub(super) fn corners(rows: &[Row]) -> String {
             bitten.domain.clone(),
             parameter(bitten.c_b),
             degrees(bitten.smallest_input_angle_deg),
-            number(cut.counts.get("corners_cut").copied()),
+            cut.counts
+                .get("corners_cut")
+                .map_or("–".into(), |count| format!("{count:.0}")),
             bitten.statistics.triangles.to_string(),
             number(triangles(pair)),
         ];

@@ -43,8 +43,8 @@ const BULK: f64 = 0.6;
 /// Points of Radon's rule.
 const POINTS: usize = 7;
 
-/// Evaluations until a part's error is known: its centroid and its parent's, the rule on it and on its quarters.
-const EVALUATIONS_A_PART: usize = 5 * POINTS + 2;
+/// Evaluations until a part's error is known: the rule on it and on its quarters.
+const EVALUATIONS_A_PART: usize = 5 * POINTS;
 
 /// ∫_Ω dA / f² with its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ pub struct Integral {
     pub value: f64,
     /// Its estimated error relative to `value`.
     pub error: f64,
-    /// How often f was evaluated.
+    /// How often the rule evaluated f, once there were triangles to begin with.
     pub evaluations: usize,
 }
 

@@ -44,7 +44,7 @@ pub fn triangles(function: &dyn Spacing, domain: &Domain) -> Result<Vec<Triangle
 }
 
 /// The triangulation of the domain with further points on its segments and inside; none if they are too many.
-fn base(
+pub(super) fn base(
     domain: &Domain,
     reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
 ) -> Result<Option<Vec<Triangle>>, SpacingError> {
@@ -79,7 +79,7 @@ fn base(
 }
 
 /// The middles of the quadtree's cells that no segment meets, each with a diagonal of at most f / λ in its middle.
-fn middles(
+pub(super) fn middles(
     domain: &Domain,
     reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
     room: usize,
@@ -108,7 +108,7 @@ fn middles(
 }
 
 /// Points between the ends, by bisection, that leave no piece longer than f / λ at its middle.
-fn inner_points(
+pub(super) fn inner_points(
     ends: [DVec2; 2],
     reach_at: impl Fn(DVec2) -> Result<f64, SpacingError>,
     room: usize,
@@ -130,7 +130,7 @@ fn inner_points(
 }
 
 /// Bisects until no edge is longer than f / λ at the centroid; none if there are more than `most` then.
-fn cut(
+pub(super) fn cut(
     base: Vec<Triangle>,
     reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
     most: usize,

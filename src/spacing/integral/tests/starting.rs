@@ -1,6 +1,6 @@
 //! The triangles and pieces that integration starts from.
 
-use super::super::start::{base, bisect, cut, inner_points, longest_edge, narrowest, triangles};
+use super::super::start::{base, bisect, cut, inner_points, longest_edge, middles, narrowest, triangles};
 use super::*;
 
 fn area([a, b, c]: &Triangle) -> f64 {
@@ -36,7 +36,7 @@ fn the_longest_edge_is_cut_in_its_middle() {
 #[test]
 fn triangles_are_cut_until_none_is_longer_than_f_over_its_constant_and_no_further() {
     let domain = gallery("l-shape");
-    let whole = base(&domain, |_, _| Ok(Some(Vec::new()))).unwrap().unwrap();
+    let whole = base(&domain, |_| Ok(f64::INFINITY)).unwrap().unwrap();
     let reach = |x: DVec2| 0.1 + 0.2 * x.x;
     let cut_to = |most: usize| cut(whole.clone(), |x| Ok(reach(x)), most).unwrap();
     let parts = cut_to(usize::MAX).unwrap();
@@ -94,16 +94,22 @@ fn segments_are_cut_into_pieces_no_longer_than_f_over_its_constant() {
 }
 
 #[test]
-fn further_points_are_vertices_of_the_triangulation() {
+fn cells_that_no_segment_meets_have_their_middles_as_vertices() {
     let domain = gallery("unit-square");
-    let middles = base(&domain, |[a, b], _| Ok(Some(vec![a.midpoint(b)])))
-        .unwrap()
-        .unwrap();
-    // Eight vertices on the boundary and none inside.
-    assert_eq!(middles.len(), 6);
-    assert!((middles.iter().map(area).sum::<f64>() - 1.0).abs() < 1e-15);
-    assert_eq!(base(&domain, |_, _| Ok(None)).unwrap(), None);
-    assert!(base(&domain, |_, _| Err(SpacingError::NoFeatures)).is_err());
+    let inside = |reach: f64, room: usize| middles(&domain, |_| Ok(reach), room).unwrap();
+    // Quarters have diagonals of 0.71, and all of them meet a side; of their quarters the inner four do not.
+    assert_eq!(inside(0.8, 100), Some(Vec::new()));
+    let mut found = inside(0.4, 100).unwrap();
+    found.sort_by(|one, other| one.x.total_cmp(&other.x).then(one.y.total_cmp(&other.y)));
+    let expected = [(0.375, 0.375), (0.375, 0.625), (0.625, 0.375), (0.625, 0.625)];
+    assert_eq!(found, expected.map(DVec2::from));
+    // Room for the cells that are still looked at, too.
+    assert!(inside(0.4, 16).is_some() && inside(0.4, 15).is_none());
+    let count = |reach: f64| base(&domain, |_| Ok(reach)).unwrap().map(|parts| parts.len());
+    // Eight vertices on the boundary and none inside; 16 and 4.
+    assert_eq!((count(0.8), count(0.4)), (Some(6), Some(22)));
+    assert_eq!(count(1e-9), None);
+    assert!(base(&domain, |_| Err(SpacingError::NoFeatures)).is_err());
 }
 
 #[test]
