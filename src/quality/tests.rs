@@ -264,59 +264,6 @@ fn triangles_at_acute_vertices_are_excused() {
 }
 
 #[test]
-fn checks_apply_only_under_their_hypotheses() {
-    let right = Hypotheses {
-        t: 0.3,
-        c_b: 0.5,
-        lfs_cap: true,
-        smallest_segment_angle_deg: 90.0,
-        low_head_on: 0,
-        single_corners: true,
-    };
-    let implied = |hypotheses: Hypotheses| CLAIMS.into_iter().filter(|claim| hypotheses.imply(claim)).count();
-    assert_eq!(implied(right), 12);
-    assert_eq!(
-        implied(Hypotheses {
-            low_head_on: 1,
-            ..right
-        }),
-        11
-    );
-    assert_eq!(
-        implied(Hypotheses {
-            smallest_segment_angle_deg: 80.0,
-            ..right
-        }),
-        10
-    );
-    assert_eq!(implied(Hypotheses { t: 0.4, ..right }), 9);
-    assert_eq!(implied(Hypotheses { c_b: 1.2, ..right }), 3);
-    assert_eq!(
-        implied(Hypotheses {
-            lfs_cap: false,
-            ..right
-        }),
-        3
-    );
-    assert_eq!(implied(Hypotheses { t: 1.0, ..right }), 3);
-    let flat = Hypotheses { t: 0.04, ..right };
-    let flat_and_acute = Hypotheses {
-        smallest_segment_angle_deg: 80.0,
-        single_corners: false,
-        ..flat
-    };
-    assert_eq!(implied(flat), 12);
-    assert!(!flat_and_acute.imply("min-angle-beyond-corners") && !flat_and_acute.imply("corner-angles"));
-    let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
-    let none = Bounds {
-        guaranteed: &[],
-        ..bounds(&UNIFORM, 0.3)
-    };
-    let (_, certificate) = judge(&square, &good, Some(&none));
-    assert!(certificate.holds && !certificate.check("coverage").unwrap().holds);
-}
-
-#[test]
 fn a_mesh_need_not_be_delaunay_where_nobody_claims_it() {
     let kite = [p(0.0, 0.0), p(2.0, -1.0), p(4.0, 0.0), p(2.0, 1.0)];
     let (domain, long) = (domain(&kite, &[]), mesh(&kite, &[[0, 1, 2], [0, 2, 3]]));

@@ -35,7 +35,7 @@ use crate::geometry::tolerance::LOWER_BOUND;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Most cells that may be looked at: about 1.2 GB; a coastline of 10⁵ segments takes 5 million.
+/// Most cells that may be looked at: about 1.2 GB.
 const MAX_CELLS: usize = 12_000_000;
 
 /// A function at most `function` on Ω, at least `factor` of the largest α-Lipschitz one below it, and α-Lipschitz.

@@ -1,12 +1,10 @@
 //! ∫_Ω dA / f², which Lemma 5.10 and Theorem 5.11 measure meshes by.
 //!
 //! # Idea
-//! The constrained Delaunay triangulation of the domain alone is bisected at longest edges until f varies little enough
-//! on each triangle. There Radon's rule (seven points, exact for degree 5) is compared with the same rule on the four
+//! The domain is cut into triangles on each of which f varies little enough ([`start`]). There Radon's rule (seven points, exact for degree 5) is compared with the same rule on the four
 //! quarters; the quarters give the value, a third of the difference is the error. Triangles with the largest errors,
 //! together 60 % of the whole, are split until the sum of all errors is within the tolerance (bulk chasing, Dörfler). Two halves
 //! instead of four quarters would not do: a function that does not vary along the edge that is cut gives the same sum.
-//! `start.rs` makes the triangles to begin with.
 //!
 //! # Guarantee
 //! An estimate, not a proof: on smooth parts the quarters are some 60 times better than the difference says, at the kinks

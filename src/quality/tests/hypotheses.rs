@@ -197,3 +197,48 @@ fn a_certificate_lists_what_applies_and_does_not_hold() {
     assert_eq!(certificate.check("measured"), Some(&certificate.checks[2]));
     assert_eq!(certificate.check("other"), None);
 }
+
+#[test]
+fn checks_apply_only_under_their_hypotheses() {
+    let implied = |hypotheses: Hypotheses| CLAIMS.into_iter().filter(|claim| hypotheses.imply(claim)).count();
+    assert_eq!(implied(RIGHT), 12);
+    assert_eq!(
+        implied(Hypotheses {
+            low_head_on: 1,
+            ..RIGHT
+        }),
+        11
+    );
+    assert_eq!(
+        implied(Hypotheses {
+            smallest_segment_angle_deg: 80.0,
+            ..RIGHT
+        }),
+        10
+    );
+    assert_eq!(implied(Hypotheses { t: 0.4, ..RIGHT }), 9);
+    assert_eq!(implied(Hypotheses { c_b: 1.2, ..RIGHT }), 3);
+    assert_eq!(
+        implied(Hypotheses {
+            lfs_cap: false,
+            ..RIGHT
+        }),
+        3
+    );
+    assert_eq!(implied(Hypotheses { t: 1.0, ..RIGHT }), 3);
+    let flat = Hypotheses { t: 0.04, ..RIGHT };
+    let flat_and_acute = Hypotheses {
+        smallest_segment_angle_deg: 80.0,
+        single_corners: false,
+        ..flat
+    };
+    assert_eq!(implied(flat), 12);
+    assert!(!flat_and_acute.imply("min-angle-beyond-corners") && !flat_and_acute.imply("corner-angles"));
+    let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
+    let none = Bounds {
+        guaranteed: &[],
+        ..bounds(&UNIFORM, 0.3)
+    };
+    let (_, certificate) = judge(&square, &good, Some(&none));
+    assert!(certificate.holds && !certificate.check("coverage").unwrap().holds);
+}
