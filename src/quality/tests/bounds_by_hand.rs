@@ -152,15 +152,7 @@ fn packing_circles_count_by_what_surely_lies_inside() {
     // Corners below and right count a quarter, the straight one a half; those 0.3 and 0.2 from it meet a third side or do not.
     assert_near(shares(&bar, &[], &[], 0.3), 1.5, "a straight corner");
     assert_near(shares(&bar, &[], &[], 0.5), 0.75, "a third side");
-    let l = [
-        p(0.0, 0.0),
-        p(2.0, 0.0),
-        p(2.0, 1.0),
-        p(1.0, 1.0),
-        p(1.0, 2.0),
-        p(0.0, 2.0),
-    ];
-    assert_near(shares(&l, &[], &[], 0.2), 5.0 * 0.25 + 0.75, "an inward corner");
+    assert_near(shares(&L, &[], &[], 0.2), 5.0 * 0.25 + 0.75, "an inward corner");
     // Graded, t = 1 and so c_p = 1/6: (½, y) has f = 1 + 2y, a circle that stays within up to y = ¼ and not above.
     let graded = Linear {
         base: 1.0,

@@ -4,8 +4,42 @@ use super::*;
 use crate::quality::coverage::coverage_check;
 use crate::quality::subject::Subject;
 
+/// By definition: whether every sample of the domain is in a disc whose radius is changed by `change`.
+fn samples_covered(domain: &Domain, mesh: &Mesh, radius: impl Fn(DVec2) -> f64, change: f64) -> bool {
+    let samples =
+        (0..=SAMPLES).flat_map(|i| (0..=SAMPLES).map(move |j| p(i as f64, j as f64) * (2.0 / SAMPLES as f64)));
+    samples
+        .filter(|x| domain.contains(*x))
+        .all(|x| mesh.points.iter().any(|y| x.distance(*y) <= radius(*y) + change))
+}
+
+const SAMPLES: usize = 64;
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
+
+    /// What samples refute, the check refutes; what samples prove with room to spare, the check confirms.
+    #[test]
+    fn coverage_agrees_with_dense_sampling(
+        inside in prop::collection::vec((0.0f64..2.0, 0.0f64..2.0), 0..60),
+        parts in 1usize..6,
+        base in 0.08f64..0.6,
+        slope in (-0.1f64..0.2, -0.1f64..0.2),
+    ) {
+        let (domain, mesh) = l_with_hole(parts, &inside);
+        let spacing = Linear { base: base.max(0.01), slope: p(slope.0, slope.1) };
+        let radius = |x: DVec2| spacing.at(x).max(1e-3) * (1.0 + CERTIFICATE);
+        prop_assume!(mesh.points.iter().all(|x| spacing.at(*x) >= 1e-3));
+        let (_, certificate) = judge(&domain, &mesh, Some(&bounds(&spacing, 1.0)));
+        let check = certificate.check("coverage").unwrap();
+        if !samples_covered(&domain, &mesh, radius, 0.0) {
+            prop_assert!(!check.holds, "{check:?}");
+        }
+        // Every point of the domain has a sample of the domain within this distance.
+        if samples_covered(&domain, &mesh, radius, -4.0 / SAMPLES as f64) {
+            prop_assert!(check.holds, "{check:?}");
+        }
+    }
 
     /// Circles through no open triangle need not be asked: they have no gap.
     #[test]

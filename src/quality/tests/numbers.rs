@@ -127,3 +127,48 @@ fn angles_where_fronts_met_have_mean_share_and_percentile_of_their_own() {
     };
     assert_eq!((seams.met, seams.elsewhere), (none, none));
 }
+
+#[test]
+fn angles_where_fronts_met_are_told_apart() {
+    // Quarters of the square, the upper one cut into two of 45°, 22.5°, 112.5° and 45°, 67.5°, 67.5°.
+    let points = [SQUARE.as_slice(), &[p(0.5, 0.5), p(0.5f64.sqrt(), 1.0)]].concat();
+    let triangles = [[0, 1, 4], [1, 2, 4], [2, 5, 4], [5, 3, 4], [3, 0, 4]];
+    let square = domain(&SQUARE, &[]);
+    let met = Mesh {
+        seams: vec![2, 3],
+        ..mesh(&points, &triangles)
+    };
+    let (statistics, _) = judge(&square, &met, None);
+    let seams = statistics.seams.unwrap();
+    assert_eq!((seams.met.triangles, seams.elsewhere.triangles), (2, 3));
+    assert!((seams.elsewhere.min_deg - 45.0).abs() < 1e-9 && (seams.elsewhere.mean_deg - 45.0).abs() < 1e-9);
+    assert!(seams.met.min_deg < 30.0 && seams.met.share_under_30 == 0.5 && seams.elsewhere.share_under_30 == 0.0);
+    assert_eq!(statistics.share_under(30), 0.2);
+    assert_eq!(judge(&square, &Mesh { seams: vec![], ..met }, None).0.seams, None);
+}
+
+#[test]
+fn statistics_of_a_mesh_known_by_hand() {
+    let (statistics, _) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&UNIFORM, 0.5)));
+    assert_eq!(
+        (statistics.vertices, statistics.triangles, statistics.excused),
+        (5, 4, 0)
+    );
+    let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-12, "{x} {y}");
+    near(statistics.min_angle_deg, 45.0);
+    near(statistics.min_angle_free_deg.unwrap(), 45.0);
+    near(statistics.max_angle_deg, 90.0);
+    near(statistics.mean_min_angle_deg, 45.0);
+    near(statistics.p05_min_angle_deg, 45.0);
+    near(statistics.max_radius_edge, 0.5f64.sqrt());
+    assert_eq!(statistics.min_angle_histogram.iter().sum::<u64>(), 4);
+    let edges = statistics.edge_over_size.unwrap();
+    near(edges.p05, 2f64.sqrt());
+    near(edges.p50, 0.5 * (2.0 + 2f64.sqrt()));
+    near(edges.p95, 2.0);
+    let nn = statistics.nn_over_f.unwrap();
+    near(nn.min, 0.5f64.sqrt());
+    near(nn.max, 0.5f64.sqrt());
+    let (bare, _) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), None);
+    assert_eq!((bare.edge_over_size, bare.nn_over_f), (None, None));
+}
