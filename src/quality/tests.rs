@@ -263,16 +263,6 @@ fn triangles_at_acute_vertices_are_excused() {
     assert!((statistics.min_angle_deg - 0.25f64.atan().to_degrees()).abs() < 1e-12);
 }
 
-#[test]
-fn a_mesh_need_not_be_delaunay_where_nobody_claims_it() {
-    let kite = [p(0.0, 0.0), p(2.0, -1.0), p(4.0, 0.0), p(2.0, 1.0)];
-    let (domain, long) = (domain(&kite, &[]), mesh(&kite, &[[0, 1, 2], [0, 2, 3]]));
-    let (_, certificate) = judge(&domain, &long, None);
-    assert!(certificate.holds && !certificate.check("constrained-delaunay").unwrap().holds);
-    let (_, certificate) = judge(&domain, &long, Some(&bounds(&UNIFORM, 0.5)));
-    assert!(!certificate.holds);
-}
-
 /// An L of three unit squares.
 const L: [DVec2; 6] = [
     DVec2::new(0.0, 0.0),

@@ -134,3 +134,13 @@ fn an_edge_is_not_delaunay_by_as_much_as_its_opposite_angles_exceed_180_degrees(
     );
     assert!(check.holds, "{check:?}");
 }
+
+#[test]
+fn a_mesh_need_not_be_delaunay_where_nobody_claims_it() {
+    let kite = [p(0.0, 0.0), p(2.0, -1.0), p(4.0, 0.0), p(2.0, 1.0)];
+    let (domain, long) = (domain(&kite, &[]), mesh(&kite, &[[0, 1, 2], [0, 2, 3]]));
+    let (_, certificate) = judge(&domain, &long, None);
+    assert!(certificate.holds && !certificate.check("constrained-delaunay").unwrap().holds);
+    let (_, certificate) = judge(&domain, &long, Some(&bounds(&UNIFORM, 0.5)));
+    assert!(!certificate.holds);
+}
