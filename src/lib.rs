@@ -9,6 +9,7 @@
 //! | [`domain`] | the PSLG Ω to mesh: vertices, segments, holes, files, gallery, validation |
 //! | [`spacing`] | control spacing f: lfs, expressions, gradient limiting, ∫ dA / f² |
 //! | [`meshers`] | the trait [`meshers::Mesher`] and the list [`meshers::MESHERS`] |
+//! | [`peers`] | meshers outside this crate, behind a process boundary |
 //! | [`delaunay`] | points and boundary pieces → constrained Delaunay triangulation, carved |
 //! | [`mesh`] | the result: triangles, markers, regions, and its files |
 //! | [`quality`] | statistics and the certificate: every bound of the paper as a check |
@@ -34,6 +35,7 @@ pub mod files;
 pub mod geometry;
 pub mod mesh;
 pub mod meshers;
+pub mod peers;
 pub mod quality;
 pub mod report;
 pub mod spacing;

@@ -4,13 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in pipeline order, each with those it may not import although they stand to its left.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 12] = [
     "geometry",
     "domain",
     "mesh",
     "delaunay",
     "spacing",
     "meshers",
+    "peers",
     "quality",
     "experiment",
     "charts",

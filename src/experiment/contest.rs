@@ -6,12 +6,14 @@
 use super::measure::complete;
 use super::record::{Cell, Outcome, Report, Row};
 use super::summary::{measured, median, specs_by_title};
-use crate::meshers::{self, MESHERS, Parameters};
+use crate::meshers::{MESHERS, Parameters};
+use crate::peers::{self, PEERS};
 
 /// A mesher with parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
-    /// Place of the mesher in `MESHERS`, which gives its colour and marker; behind all where it is no more there.
+    /// Place of the mesher in `MESHERS` and behind them `PEERS`, which gives its colour and marker; behind all where it is
+    /// no more there.
     pub place: usize,
     /// The mesher's name, and the parameters that differ from its defaults.
     pub label: String,
@@ -25,7 +27,7 @@ impl Method {
     /// The method of a row.
     pub fn of(row: &Row) -> Self {
         let mesher = &row.cell.mesher;
-        let defaults = meshers::find(mesher).map(|entry| entry.complete(&Parameters::new()));
+        let defaults = peers::find(mesher).map(|entry| entry.complete(&Parameters::new()));
         let defaults = defaults.unwrap_or_default();
         let all = complete(&row.cell);
         let differing = all.iter().filter(|(name, value)| defaults.get(*name) != Some(value));
@@ -38,8 +40,9 @@ impl Method {
         Self {
             place: MESHERS
                 .iter()
+                .chain(PEERS)
                 .position(|entry| entry.name == *mesher)
-                .unwrap_or(MESHERS.len()),
+                .unwrap_or(MESHERS.len() + PEERS.len()),
             label: std::iter::once(mesher.clone())
                 .chain(differing.iter().cloned())
                 .collect::<Vec<_>>()

@@ -2,11 +2,13 @@
 
 use super::machine;
 use super::prepare::Prepared;
-use super::record::{Cell, Provenance, Report, Seconds};
+use super::record::{Cell, Outside, Provenance, Report, Seconds};
 use crate::mesh::Mesh;
-use crate::meshers::{self, Entry, MeshError, Mesher, Request, Trace};
+use crate::meshers::{Entry, MeshError, Mesher, Request, Trace, resident_bytes};
+use crate::peers;
 use crate::quality;
 use serde_json::{Map, Value};
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// A mesh as it came from its mesher, not yet judged.
@@ -17,9 +19,13 @@ pub struct Run {
     /// Seconds, in all and by step.
     pub seconds: Seconds,
     /// Counts the mesher reports of itself.
-    pub counts: Vec<(&'static str, f64)>,
+    pub counts: BTreeMap<String, f64>,
+    /// Memory of the process just before, bytes.
+    pub rss_before_bytes: u64,
     /// Peak memory of the process by the end, bytes.
     pub peak_rss_bytes: u64,
+    /// What a mesher outside this crate told of its run.
+    pub outside: Option<Outside>,
 }
 
 /// Meshes, and times that.
@@ -28,6 +34,7 @@ pub struct Run {
 /// The mesher's.
 pub fn run(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Result<Run, MeshError> {
     let mut trace = Trace::default();
+    let rss_before_bytes = resident_bytes().unwrap_or(0);
     let start = Instant::now();
     let mesh = mesher.mesh(&prepared.site.domain, &*prepared.spacing, request, &mut trace)?;
     let total = start.elapsed().as_secs_f64();
@@ -36,13 +43,29 @@ pub fn run(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Resul
         let before = steps.get(*name).and_then(Value::as_f64).unwrap_or(0.0);
         steps.insert((*name).into(), Value::from(before + duration.as_secs_f64()));
     }
-    let seconds = Seconds { total, steps };
-    Ok(Run {
+    let mut run = Run {
         mesh,
-        seconds,
-        counts: trace.counts,
+        seconds: Seconds { total, steps },
+        counts: trace
+            .counts
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect(),
+        rss_before_bytes,
         peak_rss_bytes: machine::peak_rss_bytes(),
-    })
+        outside: None,
+    };
+    if let Some(told) = trace.outside {
+        run.seconds.total = told.seconds;
+        (run.rss_before_bytes, run.peak_rss_bytes) = (told.rss_before_bytes, told.peak_rss_bytes);
+        run.counts.extend(told.counts);
+        run.outside = Some(Outside {
+            version: told.version,
+            set_up_seconds: told.set_up,
+            repeats_differ: false,
+        });
+    }
+    Ok(run)
 }
 
 /// Everything about a mesh: statistics, certificate, and what made it.
@@ -79,12 +102,10 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
         fingerprint: fingerprint(&run.mesh),
         statistics,
         seconds: run.seconds.clone(),
+        rss_before_bytes: run.rss_before_bytes,
         peak_rss_bytes: run.peak_rss_bytes,
-        counts: run
-            .counts
-            .iter()
-            .map(|&(name, value)| (name.to_owned(), value))
-            .collect(),
+        outside: run.outside.clone(),
+        counts: run.counts.clone(),
         certificate,
         provenance: provenance.clone(),
     }
@@ -92,7 +113,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
 
 /// All parameters of a cell's mesher: those it names, and the defaults of the rest.
 pub fn complete(cell: &Cell) -> Map<String, Value> {
-    meshers::find(&cell.mesher).map_or_else(|| cell.params.clone(), |entry| entry.complete(&cell.params))
+    peers::find(&cell.mesher).map_or_else(|| cell.params.clone(), |entry| entry.complete(&cell.params))
 }
 
 /// A hash of the mesh's points and triangles, bit by bit, in hexadecimal: FNV-1a of 64 bits over their words. Equal
@@ -113,6 +134,7 @@ pub fn fingerprint(mesh: &Mesh) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::meshers;
     use crate::geometry::DVec2;
 
     #[test]

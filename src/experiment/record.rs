@@ -42,7 +42,7 @@ pub struct Provenance {
 pub struct Report {
     /// Gallery name or file stem.
     pub domain: String,
-    /// Name in `MESHERS`.
+    /// Name in `MESHERS` or `PEERS`.
     pub mesher: String,
     /// The mesher's own parameters, all of them.
     pub params: serde_json::Map<String, serde_json::Value>,
@@ -87,8 +87,14 @@ pub struct Report {
     pub statistics: Statistics,
     /// Time.
     pub seconds: Seconds,
+    /// Resident memory of the process just before meshing, bytes; 0 where the system does not tell, and in older rows.
+    #[serde(default)]
+    pub rss_before_bytes: u64,
     /// Peak resident memory of the process, bytes; 0 where the system does not tell.
     pub peak_rss_bytes: u64,
+    /// Of a mesher outside this crate: what it told of its run. `seconds` and the two of memory are its own then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outside: Option<Outside>,
     /// Counts the mesher reports of itself, such as bites.
     pub counts: BTreeMap<String, f64>,
     /// The certificate.
@@ -97,17 +103,29 @@ pub struct Report {
     pub provenance: Provenance,
 }
 
+/// What a mesher outside this crate told of its run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Outside {
+    /// Of the program or library that made the mesh.
+    pub version: String,
+    /// Seconds before meshing, by name: imports, reading, setting up the size function.
+    pub set_up_seconds: BTreeMap<String, f64>,
+    /// Whether a repeat made another mesh: such a mesher does not answer equal input by equal output.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub repeats_differ: bool,
+}
+
 /// How a cell of an experiment ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
     /// Measured; the report is there.
     Measured,
-    /// The estimate was above the cell budget.
+    /// The estimate was above the cell budget, or a mesher outside this crate is not installed.
     Skipped,
     /// The mesher declined, or stopped at a budget.
     Declined,
-    /// It failed.
+    /// It failed, or made a mesh that breaks a guaranteed check of structure; then the report is there.
     Failed,
 }
 
@@ -152,7 +170,7 @@ pub struct Try {
 pub struct Cell {
     /// Gallery name or file.
     pub domain: String,
-    /// Name in `MESHERS`.
+    /// Name in `MESHERS` or `PEERS`.
     pub mesher: String,
     /// Parameters that differ from the defaults.
     pub params: serde_json::Map<String, serde_json::Value>,

@@ -11,10 +11,11 @@ use super::machine;
 use super::measure::{self, Run};
 use super::plan::PlannedCell;
 use super::prepare::{Prepared, Store};
-use super::record::{Cell, Outcome, Provenance, Row};
+use super::record::{Cell, Outcome, Provenance, Report, Row};
 use super::tune::{NoMesh, Tuned, tune};
 use super::work::{Task, Unit};
-use crate::meshers::{self, Budget, Entry, MeshError, Mesher, Request};
+use crate::meshers::{Budget, Entry, MeshError, Mesher, Request};
+use crate::peers;
 use crate::spacing::estimate_triangles;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -200,8 +201,12 @@ impl Sweep<'_> {
         });
         match attempt {
             Ok(Ok((report, seconds, tries))) => Ending {
-                outcome: Outcome::Measured,
-                reason: None,
+                outcome: if report.outside.is_some() && !report.certificate.holds {
+                    Outcome::Failed
+                } else {
+                    Outcome::Measured
+                },
+                reason: not_conforming(&report),
                 estimated_triangles: estimated,
                 samples: if planned.cell.timed { vec![seconds] } else { Vec::new() },
                 tries,
@@ -262,7 +267,9 @@ impl Sweep<'_> {
             }
         };
         let fingerprint = measure::fingerprint(&run.mesh);
-        if fingerprint != report.fingerprint {
+        if let Some(outside) = report.outside.as_mut() {
+            outside.repeats_differ |= fingerprint != report.fingerprint;
+        } else if fingerprint != report.fingerprint {
             let reason = format!(
                 "mesh {fingerprint} of a repeat differs from the first, {}",
                 report.fingerprint
@@ -297,7 +304,8 @@ impl Sweep<'_> {
             budget: Budget {
                 max_vertices: Some((VERTICES_PER_BUDGET_TRIANGLE * limit) as usize),
                 max_seconds: Some(planned.budget.seconds),
-                max_memory: None,
+                // Peers alone are held to it: what this process has besides is not the mesher's.
+                max_memory: peers::is_peer(&planned.cell.mesher).then_some(self.memory_bytes),
             },
         };
         if planned.cell.timed {
@@ -344,16 +352,27 @@ impl Sweep<'_> {
 /// # Errors
 /// What is wrong with its name or parameters.
 pub fn mesher(cell: &Cell) -> Result<(&'static Entry, Box<dyn Mesher>), String> {
-    let entry = meshers::find(&cell.mesher)
+    let entry = peers::find(&cell.mesher)
         .ok_or_else(|| format!("there is no mesher `{}`; `biting list` shows them", cell.mesher))?;
     let made = (entry.make)(&cell.params);
     let mesher = made.map_err(|error| format!("mesher `{}`: {error}; `biting list` shows them", cell.mesher))?;
     Ok((entry, mesher))
 }
 
+/// Why the mesh of a mesher outside this crate is none of the domain; ours are held to their certificates as a whole, by
+/// what the plan expects.
+fn not_conforming(report: &Report) -> Option<String> {
+    report.outside.as_ref()?;
+    let broken: Vec<&str> = report.certificate.broken().map(|check| check.claim.as_str()).collect();
+    (!broken.is_empty()).then(|| format!("its mesh breaks {}", broken.join(", ")))
+}
+
 /// How a cell without a mesh ended, and why.
 fn ended(error: MeshError) -> (Outcome, String) {
-    let declined = matches!(error, MeshError::Budget { .. } | MeshError::Declined(_));
-    let outcome = if declined { Outcome::Declined } else { Outcome::Failed };
+    let outcome = match error {
+        MeshError::Budget { .. } | MeshError::Declined(_) => Outcome::Declined,
+        MeshError::Missing(_) => Outcome::Skipped,
+        _ => Outcome::Failed,
+    };
     (outcome, error.to_string())
 }

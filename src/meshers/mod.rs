@@ -3,6 +3,7 @@
 use crate::domain::Domain;
 use crate::mesh::Mesh;
 use crate::spacing::Spacing;
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 pub mod advancing_front;
@@ -139,9 +140,14 @@ pub static MESHERS: &[Entry] = &[
     delaunay_refinement::ENTRY,
 ];
 
-/// The mesher called `name`.
+/// The mesher of ours called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
-    MESHERS.iter().find(|entry| entry.name == name)
+    find_in(MESHERS, name)
+}
+
+/// The one called `name` of a list.
+pub(crate) fn find_in(list: &'static [Entry], name: &str) -> Option<&'static Entry> {
+    list.iter().find(|entry| entry.name == name)
 }
 
 /// Names the first parameter out of its range, of some with their values, least and most.
@@ -222,6 +228,12 @@ pub enum MeshError {
     /// The method cannot take this input, and why.
     #[error("declined: {0}")]
     Declined(String),
+    /// A mesher outside this crate is not installed, and how to install it.
+    #[error("{0}")]
+    Missing(String),
+    /// A mesher outside this crate failed, and what it said.
+    #[error("{0}")]
+    Outside(String),
     /// The points could not be triangulated.
     #[error(transparent)]
     Triangulation(#[from] crate::delaunay::TriangulationError),
@@ -234,6 +246,25 @@ pub struct Trace {
     pub steps: Vec<(&'static str, Duration)>,
     /// Counts a mesher reports beside its mesh, such as bites or forced pieces.
     pub counts: Vec<(&'static str, f64)>,
+    /// What a mesher outside this crate told of its run: its own clock counts, not ours.
+    pub outside: Option<Outside>,
+}
+
+/// A run in a process of its own, as the program tells it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outside {
+    /// Of the program or library that made the mesh.
+    pub version: String,
+    /// From domain and size function in its memory to the mesh in its memory.
+    pub seconds: f64,
+    /// Seconds of what came before, by name: imports, reading, setting up the size function.
+    pub set_up: BTreeMap<String, f64>,
+    /// Resident memory just before meshing.
+    pub rss_before_bytes: u64,
+    /// Peak resident memory of the process.
+    pub peak_rss_bytes: u64,
+    /// Numbers it reports of itself.
+    pub counts: BTreeMap<String, f64>,
 }
 
 impl Trace {

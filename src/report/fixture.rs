@@ -107,6 +107,8 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
         },
         peak_rss_bytes: 1 << 24,
         counts: BTreeMap::new(),
+        rss_before_bytes: 0,
+        outside: None,
         certificate: certificate(bound + margin, bound),
         provenance: provenance(),
     });

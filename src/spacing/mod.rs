@@ -12,6 +12,7 @@ use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
 use std::sync::Arc;
 
+mod background;
 mod combine;
 pub(crate) mod cover;
 mod expression;
@@ -33,6 +34,7 @@ mod shortlist;
 mod testing;
 mod uniform;
 
+pub use background::Background;
 pub use combine::{Min, Scaled};
 pub use expression::Expression;
 pub use gradient_limit::limit;
