@@ -6,7 +6,8 @@ use super::values::{parameter, positive};
 use crate::experiment::prepare::Store;
 use crate::experiment::record::Cell;
 use crate::mesh::files;
-use crate::meshers::{self, Parameters};
+use crate::meshers::Parameters;
+use crate::peers;
 use crate::quality::{self, Check};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -45,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mesh = files::read(&arguments.mesh).map_err(Failure::input)?;
     let entry = match &arguments.mesher {
         Some(name) => Some(
-            meshers::find(name)
+            peers::find(name)
                 .ok_or_else(|| Failure::Input(format!("there is no mesher `{name}`; `biting list` shows them")))?,
         ),
         None => None,

@@ -5,6 +5,7 @@ use super::output::say;
 use crate::domain::gallery;
 use crate::experiment::plan::Plan;
 use crate::meshers::{Entry, Guarantee, MESHERS};
+use crate::peers::{PEERS, install};
 use crate::spacing;
 use std::path::{Path, PathBuf};
 
@@ -32,15 +33,16 @@ pub fn run() -> Outcome {
     }
     say("  FILE.poly, FILE.geojson\n\nMeshers");
     for entry in MESHERS {
-        say(format_args!("  {:<16} {}", entry.name, entry.summary));
-        for parameter in entry.parameters {
-            say(format_args!(
-                "    --param {}={}  {}",
-                parameter.name, parameter.default, parameter.help
-            ));
-            say(format_args!("      values: {}", parameter.values));
-        }
+        say_entry(entry);
         say(format_args!("    guarantees {}", guarantees(entry)));
+    }
+    say("\nMeshers outside this crate");
+    for entry in PEERS {
+        say_entry(entry);
+        match install::command(entry.name) {
+            Ok(_) => say("    installed"),
+            Err(reason) => say(format_args!("    {reason}")),
+        }
     }
     say("\nSpacings");
     for kind in spacing::KINDS {
@@ -57,6 +59,18 @@ pub fn run() -> Outcome {
         }
     }
     Ok(())
+}
+
+/// A mesher with its parameters.
+fn say_entry(entry: &Entry) {
+    say(format_args!("  {:<16} {}", entry.name, entry.summary));
+    for parameter in entry.parameters {
+        say(format_args!(
+            "    --param {}={}  {}",
+            parameter.name, parameter.default, parameter.help
+        ));
+        say(format_args!("      values: {}", parameter.values));
+    }
 }
 
 /// The claims a method guarantees beyond the structural ones, with the parameters they need.

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 
 mod battery;
 mod check;
+mod compare;
 mod exit;
 mod list;
 mod mesh;
@@ -34,9 +35,11 @@ enum Verb {
     Mesh(Box<mesh::Arguments>),
     /// Judge a mesh from anywhere
     Check(check::Arguments),
+    /// Set our meshers beside those outside this crate
+    Compare(compare::Arguments),
     /// Make charts and pages again from the rows alone
     Report(report::Arguments),
-    /// List domains, meshers with parameters, spacings and experiments
+    /// List domains, meshers with parameters, spacings, peers and experiments
     List,
     /// Run the cases that come in on standard input, one a line: what a sweep of batteries starts
     #[command(name = battery::WORKER, hide = true)]
@@ -49,6 +52,7 @@ pub fn main() -> ExitCode {
         Verb::Sweep(arguments) => sweep::run(&arguments),
         Verb::Mesh(arguments) => mesh::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
+        Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Report(arguments) => report::run(&arguments),
         Verb::List => list::run(),
         Verb::RunCases => battery::work(),

@@ -13,7 +13,7 @@ use crate::experiment::machine;
 use crate::experiment::measure;
 use crate::experiment::plan::{Plan, PlannedCell};
 use crate::experiment::prepare::Store;
-use crate::experiment::record::{self, Provenance, Row};
+use crate::experiment::record::{self, Cell, Provenance, Row};
 use crate::experiment::runner::{self, Sweep};
 use crate::experiment::work::{self, Shard, Task};
 use crate::files::write_whole;
@@ -34,17 +34,53 @@ const SECONDS_PER_TRIANGLE: f64 = 4e-6;
 pub struct Arguments {
     #[command(subcommand)]
     part: Option<Part>,
+    /// The experiment [default: experiments/sweep.toml]
+    #[arg(value_name = "EXPERIMENT.toml")]
+    experiment: Option<PathBuf>,
     #[command(flatten)]
     place: Place,
+    #[command(flatten)]
+    how: How,
+    /// Run the I-th of N parts; `sweep merge` joins them
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+}
+
+#[derive(clap::Subcommand)]
+enum Part {
+    /// Join the rows of all shards, then draw charts and write the page
+    Merge(Merge),
+}
+
+#[derive(clap::Args)]
+struct Merge {
+    /// The experiment [default: experiments/sweep.toml]
+    #[arg(value_name = "EXPERIMENT.toml")]
+    experiment: Option<PathBuf>,
+    #[command(flatten)]
+    place: Place,
+}
+
+/// Where results go, and how much of a plan is run.
+#[derive(clap::Args)]
+pub struct Place {
+    /// Where the folders of results stand
+    #[arg(long, value_name = "FOLDER", default_value = "results")]
+    results: PathBuf,
+    /// Only the small part of the experiment that its `quick` tables name, in a folder of its own
+    #[arg(long)]
+    quick: bool,
+}
+
+/// How cells are run.
+#[derive(clap::Args)]
+pub struct How {
     /// Start anew; rows that are there are kept under another name
     #[arg(long)]
     fresh: bool,
     /// Print the cells and an estimate of the time, and run nothing
     #[arg(long)]
     dry_run: bool,
-    /// Run the I-th of N parts; `sweep merge` joins them
-    #[arg(long, value_name = "I/N")]
-    shard: Option<Shard>,
     /// Cells that run side by side [default: all cores]
     #[arg(long)]
     threads: Option<usize>,
@@ -54,69 +90,69 @@ pub struct Arguments {
     max_memory: Option<u64>,
 }
 
-#[derive(clap::Subcommand)]
-enum Part {
-    /// Join the rows of all shards, then draw charts and write the page
-    Merge(Place),
-}
-
-#[derive(clap::Args)]
-struct Place {
-    /// The experiment [default: experiments/sweep.toml]
-    #[arg(value_name = "EXPERIMENT.toml")]
-    experiment: Option<PathBuf>,
-    /// Where the folders of results stand
-    #[arg(long, value_name = "FOLDER", default_value = "results")]
-    results: PathBuf,
-    /// Only the small part of the experiment that its `quick` tables name, in a folder of its own
-    #[arg(long)]
-    quick: bool,
-}
-
 impl Place {
-    fn plan(&self) -> Result<Plan, Failure> {
-        let default = || Path::new(EXPERIMENTS).join("sweep.toml");
-        let plan = Plan::read(&self.experiment.clone().unwrap_or_else(default)).map_err(Failure::input)?;
+    /// The plan in `experiment`, or else the one of that name among this checkout's experiments.
+    pub fn plan(&self, experiment: Option<&PathBuf>, default: &str) -> Result<Plan, Failure> {
+        let default = || Path::new(EXPERIMENTS).join(format!("{default}.toml"));
+        let plan = Plan::read(&experiment.cloned().unwrap_or_else(default)).map_err(Failure::input)?;
         Ok(if self.quick { plan.into_quick() } else { plan })
     }
+
+    /// The folder of a plan's results.
+    pub fn folder(&self, plan: &Plan) -> PathBuf {
+        self.results.join(&plan.name)
+    }
 }
 
+/// The plan that `sweep` runs where none is named.
+const DEFAULT: &str = "sweep";
+
 pub fn run(arguments: &Arguments) -> Outcome {
-    if let Some(Part::Merge(place)) = &arguments.part {
-        return merge(&place.plan()?, &place.results);
+    if let Some(Part::Merge(Merge { experiment, place })) = &arguments.part {
+        let plan = place.plan(experiment.as_ref(), DEFAULT)?;
+        return merge(&plan, &place.folder(&plan));
     }
-    let plan = arguments.place.plan()?;
-    let folder = arguments.place.results.join(&plan.name);
-    if !plan.batteries.is_empty() {
-        return battery::run(&plan, &folder, &arguments.of_battery());
+    let plan = arguments.place.plan(arguments.experiment.as_ref(), DEFAULT)?;
+    let folder = arguments.place.folder(&plan);
+    if plan.batteries.is_empty() {
+        run_cells(&plan, &folder, &arguments.how, arguments.shard, |_| true)
+    } else {
+        battery::run(&plan, &folder, &arguments.of_battery())
     }
-    let cells = plan.cells().map_err(Failure::input)?;
+}
+
+/// Runs those of a plan's cells that are wanted and have no row, or the part of them that a shard has; then, but for a
+/// shard, draws charts and page from all rows there are.
+pub fn run_cells(
+    plan: &Plan,
+    folder: &Path,
+    how: &How,
+    shard: Option<Shard>,
+    is_wanted: impl Fn(&Cell) -> bool,
+) -> Outcome {
+    let all = plan.cells().map_err(Failure::input)?;
+    let cells: Vec<PlannedCell> = all.iter().filter(|planned| is_wanted(&planned.cell)).cloned().collect();
     for planned in &cells {
         runner::mesher(&planned.cell)
             .map_err(|problem| Failure::Input(format!("{}: {}: {problem}", plan.file.display(), planned.key)))?;
     }
     let store = Store::new(None, false);
-    if arguments.dry_run {
-        return dry_run(
-            &plan,
-            &cells,
-            &tasks(&plan, &cells, &store, arguments.threads())?,
-            arguments.threads(),
-        );
+    if how.dry_run {
+        return dry_run(plan, &cells, &tasks(plan, &cells, &store, how.threads())?, how.threads());
     }
     let provenance = machine::provenance();
-    let mut journal = open(&folder.join(file_name(record::ROWS, arguments.shard)))?;
-    start_anew_if_needed(arguments.fresh, &cells, &mut journal, &provenance)?;
-    arguments.run_pending(&plan, &cells, &store, &mut journal, &provenance)?;
+    let mut journal = open(&folder.join(file_name(record::ROWS, shard)))?;
+    start_anew_if_needed(how.fresh, &all, &mut journal, &provenance)?;
+    how.run_pending(plan, &cells, shard, &store, &mut journal, &provenance)?;
     journal
-        .settle(cells.iter().map(|planned| planned.key.as_str()))
+        .settle(all.iter().map(|planned| planned.key.as_str()))
         .map_err(Failure::input)?;
-    if let Some(shard) = arguments.shard {
+    if let Some(shard) = shard {
         say_done(shard);
         return Ok(());
     }
     let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
-    finish(&plan, &folder, &rows)
+    finish(plan, folder, &rows)
 }
 
 /// Says that a shard has run.
@@ -143,13 +179,15 @@ pub fn open<R: Record>(file: &Path) -> Result<Journal<R>, Failure> {
 impl Arguments {
     fn of_battery(&self) -> battery::Run {
         battery::Run {
-            fresh: self.fresh,
-            dry_run: self.dry_run,
+            fresh: self.how.fresh,
+            dry_run: self.how.dry_run,
             shard: self.shard,
-            threads: self.threads(),
+            threads: self.how.threads(),
         }
     }
+}
 
+impl How {
     fn threads(&self) -> usize {
         self.threads
             .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
@@ -160,6 +198,7 @@ impl Arguments {
         &self,
         plan: &Plan,
         cells: &[PlannedCell],
+        shard: Option<Shard>,
         store: &Store,
         journal: &mut Journal,
         provenance: &Provenance,
@@ -170,7 +209,7 @@ impl Arguments {
             return Ok(());
         }
         let mut tasks = tasks(plan, cells, store, self.threads())?;
-        if let Some(shard) = self.shard {
+        if let Some(shard) = shard {
             let all = tasks.into_iter().enumerate();
             tasks = all.filter(|(at, _)| shard.has(*at)).map(|(_, task)| task).collect();
         }
@@ -273,14 +312,13 @@ pub fn file_name(whole: &str, shard: Option<Shard>) -> String {
     }
 }
 
-fn merge(plan: &Plan, results: &Path) -> Outcome {
-    let folder = results.join(&plan.name);
+fn merge(plan: &Plan, folder: &Path) -> Outcome {
     if plan.batteries.is_empty() {
         let cells = plan.cells().map_err(Failure::input)?;
         let keys: Vec<String> = cells.into_iter().map(|planned| planned.key).collect();
-        finish(plan, &folder, &join(&folder, record::ROWS, &keys)?)
+        finish(plan, folder, &join(folder, record::ROWS, &keys)?)
     } else {
-        battery::finish(plan, &folder, &join(&folder, CHUNKS, &battery::keys(plan))?)
+        battery::finish(plan, folder, &join(folder, CHUNKS, &battery::keys(plan))?)
     }
 }
 
