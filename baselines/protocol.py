@@ -1,6 +1,7 @@
 """The protocol of PROTOCOL.md for adapters in Python: request, domain, size field, mesh, answer."""
 
 import json
+import math
 import resource
 import sys
 import time
@@ -28,7 +29,6 @@ class Field:
             self.child = numpy.fromfile(file, "<i4", count)
             self.corners = numpy.fromfile(file, "<f8", 4 * count).reshape(count, 4)
         self.corners *= scale
-        self._child = self._corners = None
 
     def at(self, points):
         """s at `points`, an array of n × 2."""
@@ -49,27 +49,32 @@ class Field:
         above = values[:, 2] + x * (values[:, 3] - values[:, 2])
         return below + y * (above - below)
 
-    def at_point(self, x, y):
-        """s at one point: for callbacks, several times faster than `at` for one."""
-        if self._child is None:
-            self._child, self._corners = self.child.tolist(), self.corners.tolist()
-        x = min(max((x - self.x0) / self.side, 0.0), 1.0)
-        y = min(max((y - self.y0) / self.side, 0.0), 1.0)
-        cell, first = 0, self._child[0]
-        while first >= 0:
-            x *= 2.0
-            y *= 2.0
-            cell = first
-            if x >= 1.0:
-                x -= 1.0
-                cell += 1
-            if y >= 1.0:
-                y -= 1.0
-                cell += 2
-            first = self._child[cell]
-        a, b, c, d = self._corners[cell]
-        below = a + x * (b - a)
-        return below + y * (c + x * (d - c) - below)
+    def pointwise(self):
+        """A function of x and y that is s at one point, for callbacks: several times faster than `at` for one."""
+        child, corners = self.child.tolist(), self.corners.tolist()
+        x0, y0, side = self.x0, self.y0, self.side
+
+        def at_point(x, y):
+            x = min(max((x - x0) / side, 0.0), 1.0)
+            y = min(max((y - y0) / side, 0.0), 1.0)
+            cell, first = 0, child[0]
+            while first >= 0:
+                x *= 2.0
+                y *= 2.0
+                cell = first
+                if x >= 1.0:
+                    x -= 1.0
+                    cell += 1
+                if y >= 1.0:
+                    y -= 1.0
+                    cell += 2
+                first = child[cell]
+            left_below, right_below, left_above, right_above = corners[cell]
+            below = left_below + x * (right_below - left_below)
+            above = left_above + x * (right_above - left_above)
+            return below + y * (above - below)
+
+        return at_point
 
 
 class Uniform:
@@ -82,27 +87,49 @@ class Uniform:
         """s at `points`, an array of n × 2."""
         return numpy.full(len(points), self.size)
 
-    def at_point(self, _x, _y):
-        """s at one point."""
-        return self.size
+    def pointwise(self):
+        """A function of x and y that is s at one point."""
+        return lambda _x, _y: self.size
+
+
+def equilateral_area(edge):
+    """The area of an equilateral triangle: what meshers that bound areas are given for an edge length."""
+    return math.sqrt(3.0) / 4.0 * edge**2
 
 
 class Poly:
     """A domain: `points` (n × 2), `segments` (m × 2, indices), `holes` (k × 2, a point in each)."""
 
-    def __init__(self, path):
+    def __init__(self, points, segments, holes=()):
+        self.points = numpy.array(points, dtype=float).reshape(-1, 2)
+        self.segments = numpy.array(segments, dtype=int).reshape(-1, 2)
+        self.holes = numpy.array(holes, dtype=float).reshape(-1, 2)
+
+    @classmethod
+    def read(cls, path):
+        """A .poly file counted from 0; attributes and markers are left out."""
         with open(path, encoding="ascii") as file:
             lines = [line.split("#")[0].split() for line in file]
         rows = iter([line for line in lines if line])
 
-        def section(width, kind):
+        def section(kind):
             count = int(next(rows)[0])
-            found = [[kind(word) for word in next(rows)[1 : 1 + width]] for _ in range(count)]
-            return numpy.array(found, dtype=kind).reshape(count, width)
+            return [[kind(word) for word in next(rows)[1:3]] for _ in range(count)]
 
-        self.points = section(2, float)
-        self.segments = section(2, int)
-        self.holes = section(2, float)
+        return cls(section(float), section(int), section(float))
+
+    def write(self, path):
+        """Writes a .poly file, counted from 0, every digit of every coordinate."""
+        sections = [
+            (f"{len(self.points)} 2 0 0", self.points),
+            (f"{len(self.segments)} 0", self.segments),
+            (f"{len(self.holes)}", self.holes),
+        ]
+        with open(path, "w", encoding="ascii") as file:
+            for header, rows in sections:
+                print(header, file=file)
+                for number, row in enumerate(rows.tolist()):
+                    print(number, *map(repr, row), file=file)
 
 
 def write_mesh(stem, points, triangles):
@@ -122,15 +149,20 @@ def resident_bytes():
 
 
 def peak_bytes():
-    """Peak resident memory of this process, and of the largest of its children beside it."""
-    kinds = (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-    return 1024 * sum(resource.getrusage(kind).ru_maxrss for kind in kinds)
+    """Peak resident memory of this process, and of the largest of its children beside it.
+
+    Not `ru_maxrss` for this process: Linux hands the peak of the program that started it on through fork and exec, so a small
+    peer of a large runner would seem large.
+    """
+    with open("/proc/self/status", encoding="ascii") as file:
+        own = next(int(line.split()[1]) for line in file if line.startswith("VmHWM:"))
+    return 1024 * (own + resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)
 
 
 def serve(version, mesh):
     """Answers the request named on the command line.
 
-    `mesh(domain, size, request)` gets a `Poly`, a `Field`, `Uniform` or None, and the request; it is a generator: what it does
+    `mesh(domain, size, request)` gets a `Poly`, a `Field`, a `Uniform` or None, and the request; it is a generator: what it does
     before its first `yield` counts as set-up of the size field, what it does between that and the second, which yields
     (points, triangles, counts), as meshing. It may raise `Declined`.
     """
@@ -140,7 +172,7 @@ def serve(version, mesh):
     start = time.perf_counter()
     with open(sys.argv[1], encoding="utf-8") as file:
         request = json.load(file)
-    domain = Poly(request["domain"])
+    domain = Poly.read(request["domain"])
     seconds["read"] = time.perf_counter() - start
     try:
         start = time.perf_counter()

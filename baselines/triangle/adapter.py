@@ -1,68 +1,62 @@
-"""Triangle behind a process boundary. See README.md beside this file for its licence and use."""
+"""Triangle behind a process boundary. See README.md beside this file for its licence, parameters and how it is driven."""
 
-import json
+import importlib.metadata
+import pathlib
 import sys
 
-import numpy
-import triangle
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+import protocol  # noqa: E402  (first: it starts the clock of the imports)
+import numpy  # noqa: E402
+import triangle  # noqa: E402
 
 
-def write_poly(path, data):
-    """Vertices, segments and holes as a .poly file counted from 0."""
-    sections = [
-        (f"{len(data['vertices'])} 2 0 0", data["vertices"]),
-        (f"{len(data['segments'])} 0", data["segments"]),
-        (f"{len(data.get('holes', []))}", data.get("holes", [])),
-    ]
-    with open(path, "w", encoding="ascii") as file:
-        for header, rows in sections:
-            print(header, file=file)
-            for number, row in enumerate(numpy.asarray(rows).tolist()):
-                print(number, *map(repr, row), file=file)
+def pslg(domain):
+    """The domain as the package takes it, which refuses empty lists."""
+    data = {"vertices": domain.points, "segments": domain.segments, "holes": domain.holes}
+    return {name: rows for name, rows in data.items() if len(rows)}
 
 
-def read_poly(path):
-    """Vertices, segments and holes of a .poly file counted from 0, attributes and markers left out."""
-    with open(path, encoding="ascii") as file:
-        lines = [line.split("#")[0].split() for line in file]
-    rows = iter([line for line in lines if line])
-    data = {}
-    for name, width, kind in [("vertices", 2, float), ("segments", 2, int), ("holes", 2, float)]:
-        count = int(next(rows)[0])
-        found = [[kind(word) for word in next(rows)[1 : 1 + width]] for _ in range(count)]
-        if found:
-            data[name] = numpy.array(found)
-    return data
+def decimal(number):
+    """A number without an exponent: Triangle reads `a1.9e-05` as nothing."""
+    return numpy.format_float_positional(number, trim="-")
 
 
-def smallest_angle(points, triangles):
-    """The smallest angle of all triangles in degrees."""
-    corners = points[triangles]
-    smallest = 180.0
-    for k in range(3):
-        u = corners[:, (k + 1) % 3] - corners[:, k]
-        v = corners[:, (k + 2) % 3] - corners[:, k]
-        cross = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-        smallest = min(smallest, numpy.degrees(numpy.arctan2(cross, (u * v).sum(axis=1))).min())
-    return smallest
+def quality(angle):
+    """The switch for a smallest angle in degrees; 0 asks for none."""
+    return f"q{decimal(angle)}" if angle > 0 else ""
 
 
-def main(arguments):
-    """One of the two commands of README.md."""
-    if len(arguments) == 3 and arguments[0] == "input":
-        write_poly(arguments[2], triangle.get_data(arguments[1]))
-        return
-    if len(arguments) == 3 and arguments[0] == "mesh":
-        mesh = triangle.triangulate(read_poly(arguments[1]), arguments[2])
-        answer = {
-            "triangles": len(mesh["triangles"]),
-            "vertices": len(mesh["vertices"]),
-            "min_angle_deg": smallest_angle(mesh["vertices"], mesh["triangles"]),
-        }
-        print(json.dumps(answer))
-        return
-    sys.exit("usage: adapter.py input NAME OUT.poly | adapter.py mesh IN.poly SWITCHES")
+def areas_and_centroids(mesh):
+    """Of every triangle."""
+    a, b, c = (mesh["vertices"][mesh["triangles"][:, k]] for k in range(3))
+    u, v = b - a, c - a
+    return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]), (a + b + c) / 3.0
+
+
+def refine(mesh, angle, size, most):
+    """Passes until no triangle is larger than the equilateral one of edge s at its centroid; at most `most` of them."""
+    for passes in range(most + 1):
+        areas, centroids = areas_and_centroids(mesh)
+        wanted = protocol.equilateral_area(size.at(centroids))
+        too_large = int((areas > wanted).sum())
+        if too_large == 0 or passes == most:
+            return mesh, {"passes": passes, "too_large": too_large}
+        mesh["triangle_max_area"] = numpy.maximum(wanted, areas / 4.0).reshape(-1, 1)
+        mesh = triangle.triangulate(mesh, f"pr{quality(angle)}a")
+
+
+def mesh(domain, size, request):
+    """Angles alone, one area, or passes of areas."""
+    angle, most = request["parameters"]["angle"], request["parameters"]["passes"]
+    yield
+    uniform = isinstance(size, protocol.Uniform)
+    largest = f"a{decimal(protocol.equilateral_area(size.size))}" if uniform else ""
+    found = triangle.triangulate(pslg(domain), f"p{quality(angle)}{largest}")
+    counts = {"passes": 0}
+    if isinstance(size, protocol.Field):
+        found, counts = refine(found, angle, size, most)
+    yield found["vertices"], found["triangles"], counts
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    protocol.serve(importlib.metadata.version("triangle"), mesh)
