@@ -43,8 +43,13 @@ pub(super) fn category(index: usize) -> RGBColor {
 /// The marker of a method, in the colour of its mesher: the same in all figures. Hollow where parameters differ from the
 /// mesher's defaults.
 pub(super) fn method(method: &Method) -> Marker {
-    let marker = Marker::new(method.place, category(method.place));
-    if method.is_default { marker } else { marker.hollow() }
+    mesher(method.place, method.is_default)
+}
+
+/// The same, by the mesher's place. Where colours come round again, shapes are others.
+pub(super) fn mesher(place: usize, is_default: bool) -> Marker {
+    let marker = Marker::new(place + place / CATEGORIES.len(), category(place));
+    if is_default { marker } else { marker.hollow() }
 }
 
 /// The colour of item `index` of `count` ordered ones: viridis without its palest end.

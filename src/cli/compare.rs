@@ -52,21 +52,22 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let plan = arguments.place.plan(arguments.experiment.as_ref(), DEFAULT)?;
     let has = |list: &[String], name: &String| list.is_empty() || list.contains(name);
-    run_cells(
-        &plan,
-        &arguments.place.folder(&plan),
-        &arguments.how,
-        None,
-        |cell| has(&arguments.only, &cell.mesher) && has(&arguments.domains, &cell.domain),
-    )
+    run_cells(&plan, &arguments.place.folder(&plan), &arguments.how, None, |cell| {
+        has(&arguments.only, &cell.mesher) && has(&arguments.domains, &cell.domain)
+    })
 }
 
 /// Installs peers, the named ones or all; one that cannot be had does not stop the others.
 fn install_peers(only: &[String]) -> Outcome {
-    if let Some(ours) = only.iter().find(|name| MESHERS.iter().any(|entry| entry.name == **name)) {
+    if let Some(ours) = only
+        .iter()
+        .find(|name| MESHERS.iter().any(|entry| entry.name == **name))
+    {
         return Err(Failure::Input(format!("{ours} is ours: there is nothing to install")));
     }
-    let wanted = PEERS.iter().filter(|entry| only.is_empty() || only.iter().any(|name| name == entry.name));
+    let wanted = PEERS
+        .iter()
+        .filter(|entry| only.is_empty() || only.iter().any(|name| name == entry.name));
     let mut failed = Vec::new();
     for entry in wanted {
         say_aside(format_args!("{}: installing", entry.name));
@@ -89,6 +90,9 @@ fn install_peers(only: &[String]) -> Outcome {
             ));
             Ok(())
         }
-        false => Err(Failure::Input(format!("{} could not be installed; see above", failed.join(", ")))),
+        false => Err(Failure::Input(format!(
+            "{} could not be installed; see above",
+            failed.join(", ")
+        ))),
     }
 }

@@ -138,7 +138,12 @@ pub fn run_cells(
     }
     let store = Store::new(None, false);
     if how.dry_run {
-        return dry_run(plan, &cells, &tasks(plan, &cells, &store, how.threads())?, how.threads());
+        return dry_run(
+            plan,
+            &cells,
+            &tasks(plan, &cells, &store, how.threads())?,
+            how.threads(),
+        );
     }
     let provenance = machine::provenance();
     let mut journal = open(&folder.join(file_name(record::ROWS, shard)))?;

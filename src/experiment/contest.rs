@@ -5,7 +5,7 @@
 
 use super::measure::complete;
 use super::record::{Cell, Outcome, Report, Row};
-use super::summary::{measured, median, specs_by_title};
+use super::summary::{measured, median, parameter_text, specs_by_title};
 use crate::meshers::{MESHERS, Parameters};
 use crate::peers::{self, PEERS};
 
@@ -32,10 +32,7 @@ impl Method {
         let all = complete(&row.cell);
         let differing = all.iter().filter(|(name, value)| defaults.get(*name) != Some(value));
         let differing: Vec<String> = differing
-            .map(|(name, value)| match value.as_str() {
-                Some(text) => format!("{name}={text}"),
-                None => format!("{name}={value}"),
-            })
+            .map(|(name, value)| format!("{name}={}", parameter_text(value)))
             .collect();
         Self {
             place: MESHERS
@@ -191,10 +188,20 @@ impl<'a> Contest<'a> {
         measured(self.rows[method][task]?)
     }
 
-    /// The tasks that all of `methods` measured, but for those that measured nothing at all.
+    /// Whether a method measured at least half of what it was asked: others take no part in medians over common tasks, which
+    /// would have few tasks left.
+    pub fn takes_part(&self, method: usize) -> bool {
+        let measured = self.count(method, Outcome::Measured);
+        measured > 0 && 2 * measured >= self.rows(method).count()
+    }
+
+    /// The tasks that all of `methods` measured, but for those that take no part.
     pub fn common(&self, methods: &[usize]) -> Vec<usize> {
-        let has_any = |method: &&usize| self.count(**method, Outcome::Measured) > 0;
-        let able: Vec<usize> = methods.iter().filter(has_any).copied().collect();
+        let able: Vec<usize> = methods
+            .iter()
+            .copied()
+            .filter(|method| self.takes_part(*method))
+            .collect();
         let by_all = |task: &usize| able.iter().all(|method| self.report(*method, *task).is_some());
         (0..self.tasks.len())
             .filter(|task| !able.is_empty() && by_all(task))
@@ -221,9 +228,10 @@ impl<'a> Contest<'a> {
             .collect()
     }
 
-    /// The median of those.
+    /// The median of those, where it measured all of the tasks.
     pub fn median(&self, method: usize, tasks: &[usize], value: impl Fn(&Report) -> Option<f64>) -> Option<f64> {
-        median(self.values(method, tasks, value))
+        let has_all = tasks.iter().all(|task| self.report(method, *task).is_some());
+        median(self.values(method, tasks, value)).filter(|_| has_all)
     }
 
     /// Pairs of values of two methods on the tasks where both have one.

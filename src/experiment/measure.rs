@@ -134,8 +134,8 @@ pub fn fingerprint(mesh: &Mesh) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::meshers;
     use crate::geometry::DVec2;
+    use crate::meshers;
 
     #[test]
     fn a_fingerprint_sees_one_bit_and_one_corner() {

@@ -8,6 +8,7 @@ pub mod claims;
 pub mod contest;
 mod ending;
 pub mod expect;
+pub mod frontier;
 mod gate;
 pub mod journal;
 pub mod machine;

@@ -18,7 +18,8 @@
 //! spacings = ["lfs"]
 //! mesher = "biting"
 //! params = [{ order = "fifo" }]  # default: one cell with the mesher's defaults
-//! # several meshers: `methods = [{ mesher = "biting" }, { mesher = "biting", params = { order = "fifo" } }]` instead of both
+//! # several meshers: `methods = [{ mesher = "biting" }, { mesher = "biting", params = { order = "fifo" } }]` instead of both;
+//! # or `methods = "all"`, the list `all` of a table `[methods]` at the top
 //! t = [0.25, "1/3"]              # numbers or fractions
 //! c_b = [0.25, 1.0]
 //! seeds = [0]                    # default
@@ -168,6 +169,8 @@ struct File {
     #[serde(default)]
     expect: Expectations,
     #[serde(default)]
+    methods: BTreeMap<String, Vec<Method>>,
+    #[serde(default)]
     group: Vec<Group>,
     #[serde(default)]
     battery: Vec<Battery>,
@@ -195,9 +198,13 @@ impl Plan {
             question,
             budget,
             expect,
-            group,
+            methods,
+            mut group,
             battery,
         } = toml::from_str(&text).map_err(|cause| error(cause.to_string().trim_end().to_owned()))?;
+        for each in &mut group {
+            each.resolve(&methods).map_err(error)?;
+        }
         let plan = Self {
             name,
             file: file.to_owned(),

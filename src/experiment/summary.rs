@@ -109,6 +109,11 @@ pub fn parameter<'a>(row: &'a Row, name: &str) -> Option<&'a str> {
     reported.or_else(|| row.cell.params.get(name))?.as_str()
 }
 
+/// A parameter's value as it is written.
+pub fn parameter_text(value: &serde_json::Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
 /// The kind of a spacing: what stands before the first colon or bracket, such as `lfs`, `expr` or `min`.
 pub fn family(spacing: &str) -> &str {
     spacing.split([':', '(']).next().unwrap_or(spacing)

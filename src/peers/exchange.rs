@@ -122,7 +122,11 @@ pub fn write(
 pub fn read(folder: &Path) -> Result<(Mesh, Answer), ExchangeError> {
     let text = std::fs::read(folder.join(ANSWER)).map_err(io_error(ANSWER))?;
     let answer: Answer = serde_json::from_slice(&text).map_err(|cause| ExchangeError::Answer(cause.to_string()))?;
-    if !answer.seconds.get(MESHING).is_some_and(|seconds| seconds.is_finite() && *seconds >= 0.0) {
+    if !answer
+        .seconds
+        .get(MESHING)
+        .is_some_and(|seconds| seconds.is_finite() && *seconds >= 0.0)
+    {
         return Err(ExchangeError::Answer(format!("no seconds of `{MESHING}`")));
     }
     Ok((mesh::files::read(&folder.join(format!("{MESH}.node")))?, answer))

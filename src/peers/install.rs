@@ -27,7 +27,11 @@ const NOT_INSTALLED: [&str; 2] = [ADAPTER, "README.md"];
 /// # Errors
 /// If there is no place for it, with the remedy.
 pub fn cache() -> Result<PathBuf, String> {
-    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let set = |name: &str| {
+        std::env::var_os(name)
+            .filter(|value| !value.is_empty())
+            .map(PathBuf::from)
+    };
     if let Some(folder) = set("BITING_PEERS") {
         // Peers run in folders of their own.
         return std::path::absolute(&folder).map_err(|cause| format!("{}: {cause}", folder.display()));
@@ -54,7 +58,9 @@ fn command_in(cache: &Path, baselines: &Path, name: &str) -> Result<Vec<OsString
     }
     let stamp = fs::read_to_string(cache.join("installed").join(name)).map_err(|_| remedy())?;
     if stamp != digest(&folder).map_err(|cause| format!("{}: {cause}", folder.display()))? {
-        return Err(format!("installed from other pins; `biting compare --install --only {name}` renews it"));
+        return Err(format!(
+            "installed from other pins; `biting compare --install --only {name}` renews it"
+        ));
     }
     let adapter = folder.join(ADAPTER);
     let words = if adapter.is_file() {
@@ -120,7 +126,11 @@ fn digest(folder: &Path) -> io::Result<String> {
     let mut files = files_of(folder)?;
     files.sort();
     for file in files {
-        let name = file.strip_prefix(folder).unwrap_or(&file).to_string_lossy().into_owned();
+        let name = file
+            .strip_prefix(folder)
+            .unwrap_or(&file)
+            .to_string_lossy()
+            .into_owned();
         for byte in name.into_bytes().into_iter().chain(fs::read(&file)?) {
             hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }

@@ -152,9 +152,17 @@ mod tests {
         for (place, entry) in PEERS.iter().enumerate() {
             assert!((entry.make)(&Parameters::new()).is_ok(), "{}", entry.name);
             let others = MESHERS.iter().chain(&PEERS[..place]);
-            assert!(others.into_iter().all(|other| other.name != entry.name), "{}", entry.name);
+            assert!(
+                others.into_iter().all(|other| other.name != entry.name),
+                "{}",
+                entry.name
+            );
             let folder = std::path::Path::new(super::super::install::BASELINES).join(entry.name);
-            assert!(folder.join("README.md").is_file(), "{} says what it is", folder.display());
+            assert!(
+                folder.join("README.md").is_file(),
+                "{} says what it is",
+                folder.display()
+            );
         }
     }
 

@@ -63,7 +63,12 @@ pub fn run(command: &[OsString], folder: &Path, threads: usize, limits: Limits) 
         .stdout(Stdio::null())
         .stderr(File::create(&errors)?)
         .process_group(0);
-    for name in ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "RAYON_NUM_THREADS"] {
+    for name in [
+        "OMP_NUM_THREADS",
+        "OPENBLAS_NUM_THREADS",
+        "MKL_NUM_THREADS",
+        "RAYON_NUM_THREADS",
+    ] {
         start.env(name, threads.max(1).to_string());
     }
     let mut group = Group(start.spawn()?);
@@ -109,7 +114,9 @@ impl Group {
                 let bytes = group_bytes(self.0.id());
                 if bytes > limits.bytes {
                     let (is, most) = (bytes as f64 / 1e9, limits.bytes as f64 / 1e9);
-                    return Ok(Some(format!("took {is:.1} GB of memory, more than the {most:.1} GB it may use")));
+                    return Ok(Some(format!(
+                        "took {is:.1} GB of memory, more than the {most:.1} GB it may use"
+                    )));
                 }
             }
             std::thread::sleep(PAUSE);
@@ -186,7 +193,10 @@ mod tests {
             ..AMPLE
         };
         let (ending, folder) = shell("sleep 100 & echo $! >child; wait", limits);
-        assert!(matches!(&ending, Ending::Stopped(limit) if limit.contains("seconds")), "{ending:?}");
+        assert!(
+            matches!(&ending, Ending::Stopped(limit) if limit.contains("seconds")),
+            "{ending:?}"
+        );
         let child = std::fs::read_to_string(folder.path().join("child")).expect("the child's number");
         let stat = std::fs::read_to_string(format!("/proc/{}/stat", child.trim()));
         // Gone, or a zombie that init has yet to reap.
@@ -199,8 +209,14 @@ mod tests {
             bytes: 60_000_000,
             ..AMPLE
         };
-        let (ending, _folder) = shell("(head -c 200000000 /dev/zero | tail -c 150000000 | sleep 50) & wait", limits);
-        assert!(matches!(&ending, Ending::Stopped(limit) if limit.contains("GB")), "{ending:?}");
+        let (ending, _folder) = shell(
+            "(head -c 200000000 /dev/zero | tail -c 150000000 | sleep 50) & wait",
+            limits,
+        );
+        assert!(
+            matches!(&ending, Ending::Stopped(limit) if limit.contains("GB")),
+            "{ending:?}"
+        );
     }
 
     #[test]

@@ -135,7 +135,7 @@ pub(super) fn duels(rows: &[Row]) -> String {
         };
         for rival in others {
             text += &against(&contest, ours, rival, title, is_count);
-            if !is_count {
+            if !is_count && !contest.pairs([ours, rival], |_| Some(0.0)).is_empty() {
                 text += &why(&contest, ours, rival);
             }
         }

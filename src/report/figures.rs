@@ -1,7 +1,7 @@
 //! Which charts the rows have numbers for.
 
 use super::markdown::parameter;
-use super::{claims, findings, rivals};
+use super::{claims, findings, frontiers, rivals};
 use crate::charts::{self, ChartError};
 use crate::experiment::contest::{at_equal_count, at_equal_size};
 use crate::experiment::record::Row;
@@ -15,10 +15,12 @@ pub(super) enum Section {
     Angle,
     Size,
     Fewest,
+    Frontier,
     Corners,
     Orders,
     Time,
     Rivals,
+    Peers,
     Duels,
     Claims,
 }
@@ -27,9 +29,9 @@ pub(super) enum Section {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Chart {
     /// Its files are `charts/NAME.svg` and `charts/NAME.png`.
-    pub(super) name: &'static str,
+    pub(super) name: String,
     /// One line that says what is to be seen.
-    pub(super) caption: &'static str,
+    pub(super) caption: String,
     /// Where it belongs.
     pub(super) section: Section,
 }
@@ -42,8 +44,12 @@ struct Drawer {
 
 impl Drawer {
     /// Where the next chart goes, without ending.
-    fn next(&mut self, section: Section, name: &'static str, caption: &'static str) -> PathBuf {
-        self.charts.push(Chart { name, caption, section });
+    fn next(&mut self, section: Section, name: &str, caption: &str) -> PathBuf {
+        self.charts.push(Chart {
+            name: name.to_owned(),
+            caption: caption.to_owned(),
+            section,
+        });
         self.folder.join(name)
     }
 }
@@ -55,6 +61,7 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Chart>, ChartError
         charts: Vec::new(),
     };
     draw_grid(rows, &mut drawer)?;
+    draw_frontiers(rows, &mut drawer)?;
     draw_orders(rows, &mut drawer)?;
     let series = time_series(&findings::ours(rows, "time"));
     if !series.is_empty() {
@@ -180,6 +187,19 @@ fn draw_grid(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
         let caption = "Triangles against smallest angle for each t and c_b, on domains without angles under 90° between segments; \
                        no pair beats the filled ones in both.";
         charts::size_for_angle(&pairs, &drawer.next(Section::Fewest, "size-for-angle", caption))?;
+    }
+    Ok(())
+}
+
+/// What a smallest angle costs, over all domains and on each.
+fn draw_frontiers(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
+    for (domain, families) in frontiers::by_domain(rows).iter().rev() {
+        let name = format!("frontier-{}", domain.replace(' ', "-"));
+        let caption = match domain.as_str() {
+            frontiers::ALL => "Smallest of the angles and median of the sizes over all domains.".to_owned(),
+            _ => format!("Size against smallest angle on {domain}."),
+        };
+        charts::frontiers(domain, families, &drawer.next(Section::Frontier, &name, &caption))?;
     }
     Ok(())
 }

@@ -6,8 +6,10 @@ use super::corners;
 use super::duels;
 use super::figures::{Chart, Section};
 use super::findings::{grids, of_group, spread, tally};
+use super::frontiers;
 use super::markdown::{number, parameter, plain, table};
 use super::meshes::Picture;
+use super::peers;
 use super::ranks;
 use super::rivals;
 use super::sections;
@@ -41,10 +43,16 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
             sections::fewest_triangles(rows),
             Section::Fewest,
         ),
+        (
+            "What a smallest angle costs",
+            frontiers::frontiers(rows),
+            Section::Frontier,
+        ),
         ("Corners", corners::corners(rows), Section::Corners),
         ("Orders of bites", sections::orders(rows), Section::Orders),
         ("Time of biting, step by step", sections::time(rows), Section::Time),
         ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
+        ("Beside the meshers people use", peers::peers(rows), Section::Peers),
         (
             "Where biting wins, where it loses, and why",
             duels::duels(rows) + &ranks::ranks(rows),
@@ -95,12 +103,17 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
         angles::hypothesis_finding(rows),
         sections::size_finding(rows),
         sections::fewest_finding(rows),
+        frontiers::frontier_finding(rows),
         corners::corner_finding(rows),
         sections::order_finding(rows),
         sections::certificate_finding(rows),
         sections::time_finding(rows),
     ];
-    let compared = duels::duel_findings(rows).into_iter();
+    // Beside peers there are too many rivals for a line each.
+    let mut compared = peers::peer_findings(rows);
+    if compared.is_empty() {
+        compared = duels::duel_findings(rows);
+    }
     let claims = [claims::seam_finding(rows), claims::sampling_finding(rows)];
     let lines = lines
         .into_iter()
@@ -168,6 +181,9 @@ fn meaning(title: &str, rows: &[&Row]) -> String {
     }
 }
 
+/// Verbs whose own plan is that of their name.
+const VERBS: [&str; 2] = ["sweep", "compare"];
+
 /// Command, version, machine and date of the measured rows.
 fn provenance(rows: &[Row], name: &str) -> String {
     let provenances: Vec<_> = rows
@@ -177,9 +193,9 @@ fn provenance(rows: &[Row], name: &str) -> String {
         .collect();
     let all = |text: Vec<String>| first_seen(text.iter().map(String::as_str)).join("; ");
     let command = match name.strip_suffix("-quick") {
-        Some("sweep") => "sweep --quick".to_string(),
+        Some(plan) if VERBS.contains(&plan) => format!("{plan} --quick"),
         Some(plan) => format!("sweep experiments/{plan}.toml --quick"),
-        None if name == "sweep" => "sweep".to_string(),
+        None if VERBS.contains(&name) => name.to_string(),
         None => format!("sweep experiments/{name}.toml"),
     };
     let versions = provenances.iter().map(|made| {

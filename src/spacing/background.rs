@@ -253,7 +253,11 @@ fn hang(
     if let Some(known) = values.get(&node) {
         return *known;
     }
-    let mean = 0.5 * carriers[&node].map(|end| hang(end, carriers, values)).iter().sum::<f64>();
+    let mean = 0.5
+        * carriers[&node]
+            .map(|end| hang(end, carriers, values))
+            .iter()
+            .sum::<f64>();
     values.insert(node, mean);
     mean
 }
@@ -299,7 +303,9 @@ mod tests {
 
     fn sampled(name: &str, spec: &str, error: f64) -> (Domain, std::sync::Arc<dyn Spacing>, Background) {
         let domain = load(name).expect("a gallery domain");
-        let built = build(spec, &domain, &Options::with_alpha(0.4)).expect("a spacing").function;
+        let built = build(spec, &domain, &Options::with_alpha(0.4))
+            .expect("a spacing")
+            .function;
         let background = Background::of(&*built, &domain, error);
         (domain, built, background)
     }
@@ -341,12 +347,17 @@ mod tests {
     #[test]
     fn neighbours_differ_by_one_level() {
         let domain = load("two-arms").expect("a gallery domain");
-        let built = build("lfs", &domain, &Options::with_alpha(0.4)).expect("a spacing").function;
+        let built = build("lfs", &domain, &Options::with_alpha(0.4))
+            .expect("a spacing")
+            .function;
         let mut tree = Tree::refined(&*built, &domain, 0.05);
         tree.balance();
         for at in (0..tree.squares.len()).filter(|at| tree.children[*at] == NONE) {
             let Square { x, y, side } = tree.squares[at];
-            for unit in [(x + side, y), (x, y + side)].into_iter().filter(|(x, y)| *x < SIDE && *y < SIDE) {
+            for unit in [(x + side, y), (x, y + side)]
+                .into_iter()
+                .filter(|(x, y)| *x < SIDE && *y < SIDE)
+            {
                 let other = tree.squares[tree.leaf_at(unit)].side;
                 assert!(other <= 2 * side, "{side} beside {other}");
             }

@@ -2,8 +2,10 @@
 
 use super::{CellBudget, Number, PlannedCell};
 use crate::experiment::record::Cell;
+use crate::experiment::summary::parameter_text;
 use crate::meshers::Parameters;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// A group: every combination of its lists is a cell.
 #[derive(Clone, Debug, Deserialize)]
@@ -23,7 +25,7 @@ pub struct Group {
     params: Option<Vec<Parameters>>,
     /// Meshers with their parameters, in place of `mesher` and `params`.
     #[serde(default)]
-    methods: Option<Vec<Method>>,
+    methods: Option<Methods>,
     t: Vec<Number>,
     c_b: Vec<Number>,
     #[serde(default = "seed_zero")]
@@ -51,11 +53,39 @@ struct Quick {
     domains: Option<Vec<String>>,
     spacings: Option<Vec<String>>,
     params: Option<Vec<Parameters>>,
-    methods: Option<Vec<Method>>,
+    methods: Option<Methods>,
     t: Option<Vec<Number>>,
     c_b: Option<Vec<Number>>,
     equal_triangles: Option<u64>,
     repeats: Option<usize>,
+}
+
+/// The methods of a group, or the name of a list under `[methods]` that several groups share.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+enum Methods {
+    Named(String),
+    Listed(Vec<Method>),
+}
+
+impl Methods {
+    /// Puts the list in place of its name.
+    fn resolve(&mut self, lists: &BTreeMap<String, Vec<Method>>) -> Result<(), String> {
+        if let Self::Named(name) = self {
+            let list = lists
+                .get(name)
+                .ok_or_else(|| format!("there is no list `{name}` under `[methods]`"))?;
+            *self = Self::Listed(list.clone());
+        }
+        Ok(())
+    }
+
+    fn list(&self) -> &[Method] {
+        match self {
+            Self::Listed(methods) => methods,
+            Self::Named(_) => &[],
+        }
+    }
 }
 
 /// A mesher with parameters.
@@ -82,6 +112,17 @@ fn three() -> usize {
 }
 
 impl Group {
+    /// Puts the lists that several groups share in place of their names.
+    pub(super) fn resolve(&mut self, lists: &BTreeMap<String, Vec<Method>>) -> Result<(), String> {
+        let quick = self.quick.as_mut().and_then(|quick| quick.methods.as_mut());
+        for methods in self.methods.as_mut().into_iter().chain(quick) {
+            methods
+                .resolve(lists)
+                .map_err(|problem| format!("group `{}`: {problem}", self.name))?;
+        }
+        Ok(())
+    }
+
     /// The part that `--quick` runs, if there is one.
     pub(super) fn into_quick(mut self) -> Option<Self> {
         let quick = self.quick.take()?;
@@ -98,7 +139,7 @@ impl Group {
 
     /// How many combinations its lists have.
     pub(super) fn combinations(&self) -> usize {
-        let methods = self.methods.as_ref().map_or(1, Vec::len);
+        let methods = self.methods.as_ref().map_or(1, |methods| methods.list().len());
         let params = self.params.as_ref().map_or(1, Vec::len);
         let lists = [
             self.domains.len(),
@@ -166,7 +207,7 @@ impl Group {
                 };
                 Ok(params.into_iter().map(method).collect())
             }
-            (None, Some(methods), None) => Ok(methods.clone()),
+            (None, Some(methods), None) => Ok(methods.list().to_vec()),
             _ => Err("say `mesher`, with `params` where it needs some, or else `methods`".into()),
         }
     }
@@ -176,8 +217,7 @@ impl Group {
 fn key(group: &str, cell: &Cell) -> String {
     let mut key = format!("{group}/{}/{}/{}", cell.domain, cell.spacing, cell.mesher);
     for (name, value) in &cell.params {
-        let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-        key.push_str(&format!(",{name}={value}"));
+        key.push_str(&format!(",{name}={}", parameter_text(value)));
     }
     key.push_str(&format!("/t={}/c_b={}", cell.t, cell.c_b));
     for (text, differs) in [
