@@ -34,7 +34,7 @@ pub(super) fn angle_finding(rows: &[Row]) -> Option<String> {
 /// What the sweep shows of a hypothesis that the paper uses without saying so.
 pub(super) fn hypothesis_finding(rows: &[Row]) -> Option<String> {
     let found = low_overlaps(rows);
-    (found.low > 0).then(|| {
+    (found.low_broken > 0).then(|| {
         format!(
             "**A hypothesis the paper does not state.** Theorem 6.8 rests on Lemma 6.4, which bounds how high the circles \
              of neighbouring boundary vertices meet only where edge protection put one of the two. Where the circles of a \
