@@ -90,6 +90,8 @@ impl Arguments {
             seed: 0,
             lfs_cap: !self.no_lfs_cap,
             triangles: None,
+            threads: 1,
+            poisson: None,
             timed: false,
         }
     }

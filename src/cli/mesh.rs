@@ -138,6 +138,8 @@ impl Arguments {
             seed: self.seed,
             lfs_cap: !self.no_lfs_cap,
             triangles: None,
+            threads: 1,
+            poisson: None,
             timed: false,
         })
     }

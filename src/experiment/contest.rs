@@ -65,6 +65,8 @@ impl Asked<'_> {
             own.seed,
             own.lfs_cap,
             own.triangles,
+            own.threads,
+            &own.poisson,
         ) == (
             &cell.domain,
             &cell.spacing,
@@ -73,6 +75,8 @@ impl Asked<'_> {
             cell.seed,
             cell.lfs_cap,
             cell.triangles,
+            cell.threads,
+            &cell.poisson,
         )
     }
 }

@@ -1,8 +1,9 @@
 //! One mesh and all that is known of it: what `mesh` and `sweep` share.
 
 use super::machine;
-use super::prepare::Prepared;
+use super::prepare::{Prepared, Site};
 use super::record::{Cell, Outside, Provenance, Report, Seconds};
+use crate::fem::{self, Problem, Solution};
 use crate::mesh::Mesh;
 use crate::meshers::{Entry, MeshError, Mesher, Request, Trace, resident_bytes};
 use crate::peers;
@@ -105,10 +106,17 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
         rss_before_bytes: run.rss_before_bytes,
         peak_rss_bytes: run.peak_rss_bytes,
         outside: run.outside.clone(),
+        poisson: cell.poisson.as_deref().and_then(|name| poisson(name, site, run)),
         counts: run.counts.clone(),
         certificate,
         provenance: provenance.clone(),
     }
+}
+
+/// Solves a Poisson problem on the mesh; absent where that cannot be done, as on a mesh that is none of the domain.
+fn poisson(name: &str, site: &Site, run: &Run) -> Option<Solution> {
+    let problem = Problem::named(name, site.domain.bounds()).ok()?;
+    fem::solve(&run.mesh, &problem).ok()
 }
 
 /// All parameters of a cell's mesher: those it names, and the defaults of the rest.
@@ -165,6 +173,8 @@ mod tests {
                 seed: 0,
                 lfs_cap: true,
                 triangles: None,
+                threads: 1,
+                poisson: None,
                 timed: false,
             };
             let defaults = complete(&cell);

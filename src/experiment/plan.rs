@@ -24,7 +24,9 @@
 //! c_b = [0.25, 1.0]
 //! seeds = [0]                    # default
 //! lfs_cap = true                 # default
-//! equal_triangles = 20_000       # without it c_b stays as asked; with it c_b is scaled until a mesh has so many
+//! equal_triangles = 20_000       # or a list; without it c_b stays as asked, with it c_b is scaled until a mesh has so many
+//! threads = [1]                  # default
+//! poisson = "smooth"             # without it nothing is solved
 //! timed = false                  # default; a timed cell runs alone, `repeats` times
 //! repeats = 3                    # default
 //! quick = { t = [0.25] }         # lists that replace those above under --quick; without it the group is left out

@@ -1,5 +1,6 @@
 //! A [`Report`] says all about one mesh; a [`Row`] is one line of an experiment, failures included.
 
+use crate::fem::Solution;
 use crate::quality::{Certificate, Statistics};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -95,6 +96,9 @@ pub struct Report {
     /// Of a mesher outside this crate: what it told of its run. `seconds` and the two of memory are its own then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outside: Option<Outside>,
+    /// What came of the Poisson problem that the cell asks for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poisson: Option<Solution>,
     /// Counts the mesher reports of itself, such as bites.
     pub counts: BTreeMap<String, f64>,
     /// The certificate.
@@ -187,8 +191,24 @@ pub struct Cell {
     /// Triangles the mesh shall have: c_b is scaled until it has, the spacing staying as it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub triangles: Option<u64>,
+    /// Threads the mesher may use.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub threads: usize,
+    /// A Poisson problem to solve on the mesh: a name in [`crate::fem::PROBLEMS`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poisson: Option<String>,
     /// Whether it runs alone and repeated.
     pub timed: bool,
+}
+
+fn one() -> usize {
+    1
+}
+
+// A reference, since serde hands one over.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_one(threads: &usize) -> bool {
+    *threads == 1
 }
 
 impl Cell {

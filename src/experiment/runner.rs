@@ -300,7 +300,7 @@ impl Sweep<'_> {
         let request = Request {
             c_b,
             seed: planned.cell.seed,
-            threads: 1,
+            threads: planned.cell.threads,
             budget: Budget {
                 max_vertices: Some((VERTICES_PER_BUDGET_TRIANGLE * limit) as usize),
                 max_seconds: Some(planned.budget.seconds),

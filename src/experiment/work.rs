@@ -98,6 +98,8 @@ pub fn tasks<E>(
             cell.c_b.to_bits(),
             cell.seed,
             cell.triangles,
+            cell.threads,
+            cell.poisson.as_deref(),
         );
         let units = &mut tasks[task].units;
         let unit = *unit_of.entry(method).or_insert_with(|| {
@@ -170,6 +172,8 @@ mod tests {
                 seed: 0,
                 lfs_cap: true,
                 triangles: None,
+                threads: 1,
+                poisson: None,
                 timed: false,
             },
             budget: CellBudget::default(),

@@ -1,7 +1,7 @@
 //! Which charts the rows have numbers for.
 
 use super::markdown::parameter;
-use super::{claims, findings, frontiers, rivals};
+use super::{claims, findings, frontiers, poisson, rivals};
 use crate::charts::{self, ChartError};
 use crate::experiment::contest::{at_equal_count, at_equal_size};
 use crate::experiment::record::Row;
@@ -21,6 +21,7 @@ pub(super) enum Section {
     Time,
     Rivals,
     Peers,
+    Poisson,
     Duels,
     Claims,
 }
@@ -62,6 +63,7 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Chart>, ChartError
     };
     draw_grid(rows, &mut drawer)?;
     draw_frontiers(rows, &mut drawer)?;
+    draw_poisson(rows, &mut drawer)?;
     draw_orders(rows, &mut drawer)?;
     let series = time_series(&findings::ours(rows, "time"));
     if !series.is_empty() {
@@ -200,6 +202,18 @@ fn draw_frontiers(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
             _ => format!("Size against smallest angle on {domain}."),
         };
         charts::frontiers(domain, families, &drawer.next(Section::Frontier, &name, &caption))?;
+    }
+    Ok(())
+}
+
+/// Errors, iterations and eigenvalues of each Poisson problem.
+fn draw_poisson(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
+    for (number, (title, contest)) in poisson::by_problem(rows).iter().enumerate() {
+        let caption = format!(
+            "{title}: errors scaled by the power of unknowns with which they fall, iterations and eigenvalues."
+        );
+        let stem = drawer.next(Section::Poisson, &format!("poisson-{}", number + 1), &caption);
+        charts::poisson(title, contest, &stem)?;
     }
     Ok(())
 }

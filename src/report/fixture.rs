@@ -52,6 +52,8 @@ pub(super) fn row(group: &str, domain: &str, spacing: &str, t: f64, c_b: f64, or
             seed: 0,
             lfs_cap: true,
             triangles: None,
+            threads: 1,
+            poisson: None,
             timed: group == "time",
         },
         samples: Vec::new(),
@@ -109,6 +111,7 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
         counts: BTreeMap::new(),
         rss_before_bytes: 0,
         outside: None,
+        poisson: None,
         certificate: certificate(bound + margin, bound),
         provenance: provenance(),
     });

@@ -15,6 +15,7 @@ mod markdown;
 mod meshes;
 mod page;
 mod peers;
+mod poisson;
 mod quote;
 mod ranks;
 mod rivals;

@@ -10,6 +10,7 @@ use super::frontiers;
 use super::markdown::{number, parameter, plain, table};
 use super::meshes::Picture;
 use super::peers;
+use super::poisson;
 use super::ranks;
 use super::rivals;
 use super::sections;
@@ -52,6 +53,7 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
         ("Orders of bites", sections::orders(rows), Section::Orders),
         ("Time of biting, step by step", sections::time(rows), Section::Time),
         ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
+        ("What quality is for", poisson::poisson(rows), Section::Poisson),
         ("Beside the meshers people use", peers::peers(rows), Section::Peers),
         (
             "Where biting wins, where it loses, and why",
@@ -104,6 +106,7 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
         sections::size_finding(rows),
         sections::fewest_finding(rows),
         frontiers::frontier_finding(rows),
+        poisson::poisson_finding(rows),
         corners::corner_finding(rows),
         sections::order_finding(rows),
         sections::certificate_finding(rows),

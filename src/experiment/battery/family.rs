@@ -195,6 +195,8 @@ impl Family {
                 seed: 0,
                 lfs_cap: true,
                 triangles: None,
+                threads: 1,
+                poisson: None,
                 timed: false,
             },
             budget: self.limits,

@@ -136,6 +136,8 @@ mod tests {
                 seed: 0,
                 lfs_cap: true,
                 triangles: None,
+                threads: 1,
+                poisson: None,
                 timed: false,
             },
             budget: Limits {

@@ -18,6 +18,8 @@ fn row(key: &str, samples: &[f64]) -> Line {
             seed: 0,
             lfs_cap: true,
             triangles: None,
+            threads: 1,
+            poisson: None,
             timed: false,
         },
         samples: samples.to_vec(),

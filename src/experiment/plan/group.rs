@@ -3,6 +3,8 @@
 use super::{CellBudget, Number, PlannedCell};
 use crate::experiment::record::Cell;
 use crate::experiment::summary::parameter_text;
+use crate::fem::Problem;
+use crate::geometry::Rect;
 use crate::meshers::Parameters;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -34,7 +36,13 @@ pub struct Group {
     lfs_cap: bool,
     /// Triangles every mesh shall have: c_b is scaled until it has, each c_b of the list being where that starts.
     #[serde(default)]
-    equal_triangles: Option<u64>,
+    equal_triangles: Option<Counts>,
+    /// Threads a mesher may use.
+    #[serde(default = "one_thread")]
+    threads: Vec<usize>,
+    /// A Poisson problem to solve on each mesh.
+    #[serde(default)]
+    poisson: Option<String>,
     #[serde(default)]
     timed: bool,
     #[serde(default = "three")]
@@ -56,8 +64,25 @@ struct Quick {
     methods: Option<Methods>,
     t: Option<Vec<Number>>,
     c_b: Option<Vec<Number>>,
-    equal_triangles: Option<u64>,
+    equal_triangles: Option<Counts>,
     repeats: Option<usize>,
+}
+
+/// One number of triangles or several.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+enum Counts {
+    One(u64),
+    Several(Vec<u64>),
+}
+
+impl Counts {
+    fn list(&self) -> &[u64] {
+        match self {
+            Self::One(count) => std::slice::from_ref(count),
+            Self::Several(counts) => counts,
+        }
+    }
 }
 
 /// The methods of a group, or the name of a list under `[methods]` that several groups share.
@@ -101,6 +126,10 @@ pub struct Method {
 
 fn seed_zero() -> Vec<u64> {
     vec![0]
+}
+
+fn one_thread() -> Vec<usize> {
+    vec![1]
 }
 
 fn yes() -> bool {
@@ -147,6 +176,8 @@ impl Group {
             self.t.len(),
             self.c_b.len(),
             self.seeds.len(),
+            self.counts().len(),
+            self.threads.len(),
         ];
         lists
             .into_iter()
@@ -155,15 +186,22 @@ impl Group {
 
     /// The group's cells, domain by domain, within a domain spacing by spacing, within a spacing method by method.
     pub(super) fn cells(&self, budget: CellBudget) -> Result<Vec<PlannedCell>, String> {
+        if let Some(Err(error)) = self.poisson.as_ref().map(|name| Problem::named(name, Rect::EMPTY)) {
+            return Err(error.to_string());
+        }
         if self.timed && self.repeats == 0 {
             return Err("`repeats` must be at least 1".into());
         }
         let methods = self.methods()?;
         let asked = |domain: &String, spacing: &String, method: &Method| {
             let mut cells = Vec::new();
-            for &seed in &self.seeds {
+            for (&seed, triangles) in self
+                .seeds
+                .iter()
+                .flat_map(|seed| self.counts().into_iter().map(move |n| (seed, n)))
+            {
                 for (t, c_b) in self.t.iter().flat_map(|t| self.c_b.iter().map(move |c_b| (t, c_b))) {
-                    cells.push(Cell {
+                    cells.extend(self.threads.iter().map(|&threads| Cell {
                         domain: domain.clone(),
                         mesher: method.mesher.clone(),
                         params: method.params.clone(),
@@ -172,9 +210,11 @@ impl Group {
                         c_b: c_b.get(),
                         seed,
                         lfs_cap: self.lfs_cap,
-                        triangles: self.equal_triangles,
+                        triangles,
+                        threads,
+                        poisson: self.poisson.clone(),
                         timed: self.timed,
-                    });
+                    }));
                 }
             }
             cells
@@ -194,6 +234,14 @@ impl Group {
             }
         }
         Ok(cells)
+    }
+
+    /// The numbers of triangles asked for, or none once.
+    fn counts(&self) -> Vec<Option<u64>> {
+        match &self.equal_triangles {
+            None => vec![None],
+            Some(counts) => counts.list().iter().copied().map(Some).collect(),
+        }
     }
 
     /// What the group says of meshers, in one form.
@@ -226,6 +274,11 @@ fn key(group: &str, cell: &Cell) -> String {
         (
             format!("/triangles={}", cell.triangles.unwrap_or_default()),
             cell.triangles.is_some(),
+        ),
+        (format!("/threads={}", cell.threads), cell.threads != 1),
+        (
+            format!("/poisson={}", cell.poisson.as_deref().unwrap_or_default()),
+            cell.poisson.is_some(),
         ),
         ("/timed".into(), cell.timed),
     ] {

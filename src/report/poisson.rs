@@ -1,0 +1,117 @@
+//! The part of the page on what quality is for: errors, iterations and eigenvalues of a Poisson problem on each mesh.
+
+use super::markdown::{number, table};
+use crate::charts::YIELDS;
+use crate::experiment::contest::Contest;
+use crate::experiment::record::Row;
+use crate::experiment::summary::{first_seen, median};
+use crate::fem::Solution;
+
+/// The rows with a problem, split by what was solved where.
+pub(super) fn by_problem(rows: &[Row]) -> Vec<(String, Contest<'_>)> {
+    let own: Vec<&Row> = rows.iter().filter(|row| row.cell.poisson.is_some()).collect();
+    let title = |row: &Row| {
+        let problem = row.cell.poisson.as_deref().unwrap_or_default();
+        format!("{problem} on {}, {}", row.cell.domain, row.cell.spacing)
+    };
+    let titles: Vec<String> = own.iter().map(|row| title(row)).collect();
+    let contest = |wanted: &str| {
+        let rows = own.iter().zip(&titles).filter(|(_, title)| *title == wanted);
+        (wanted.to_owned(), Contest::of(rows.map(|(row, _)| *row)))
+    };
+    first_seen(titles.iter().map(String::as_str))
+        .into_iter()
+        .map(contest)
+        .collect()
+}
+
+/// What one method gave, as medians over the tasks of a contest: one number for each of [`YIELDS`].
+fn yields(contest: &Contest, method: usize) -> [Option<f64>; YIELDS.len()] {
+    let tasks: Vec<usize> = (0..contest.tasks.len()).collect();
+    YIELDS.each_ref().map(|wanted| {
+        let value = |solution: &Solution| (wanted.value)(solution);
+        contest.median(method, &tasks, |report| value(report.poisson.as_ref()?))
+    })
+}
+
+/// The part of the page: a table for each problem.
+pub(super) fn poisson(rows: &[Row]) -> String {
+    let all = by_problem(rows);
+    if all.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(
+        "−Δu = g with known u by linear elements; errors are relative to u, in the energy norm and in L2, and scaled by the power of \
+         unknowns with which they fall: so meshes of different counts can stand in one median, and less is better. Iterations are of \
+         conjugate gradients preconditioned by the diagonal, to a residual of 10⁻⁸. The condition is that of the preconditioned matrix, \
+         at the largest count.\n\n",
+    );
+    for (title, contest) in &all {
+        let line = |method: usize| {
+            let [energy, l2, iterations, eigenvalue] = yields(contest, method).map(number);
+            let last = contest.tasks.len().saturating_sub(1);
+            let condition = contest
+                .report(method, last)
+                .and_then(|report| report.poisson.as_ref()?.spectrum)
+                .map(|spectrum| spectrum.condition_preconditioned);
+            let count = contest.rows(method).filter(|row| has_solution(row)).count();
+            let of = contest.rows(method).count();
+            let label = contest.methods[method].label.clone();
+            vec![
+                label,
+                format!("{count} of {of}"),
+                energy,
+                l2,
+                iterations,
+                eigenvalue,
+                number(condition),
+            ]
+        };
+        let mut head = vec!["mesher", "solved"];
+        head.extend(YIELDS.iter().map(|wanted| wanted.label));
+        head.push("condition");
+        let lines: Vec<_> = contest.all().into_iter().map(line).collect();
+        text += &format!("### {title}\n\n{}", table(&head, &lines));
+    }
+    text
+}
+
+fn has_solution(row: &Row) -> bool {
+    crate::experiment::summary::measured(row).is_some_and(|report| report.poisson.is_some())
+}
+
+/// Whose error per unknown is smallest, problem by problem, and how far ours is from it.
+pub(super) fn poisson_finding(rows: &[Row]) -> Option<String> {
+    let told: Vec<String> = by_problem(rows)
+        .iter()
+        .filter_map(|(title, contest)| best(title, contest))
+        .collect();
+    (!told.is_empty()).then(|| format!("**Error per unknown** of a Poisson problem: {}.", told.join("; ")))
+}
+
+fn best(title: &str, contest: &Contest) -> Option<String> {
+    let ours = crate::experiment::claims::ours(contest)?;
+    let part = |which: usize| {
+        let mut all: Vec<(usize, f64)> = contest
+            .all()
+            .into_iter()
+            .filter_map(|method| Some((method, yields(contest, method)[which]?)))
+            .collect();
+        all.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let (first, least) = *all.first()?;
+        let (_, most) = *all.last()?;
+        let own = all.iter().find(|(method, _)| *method == ours)?.1;
+        let middle = median(all.iter().map(|(_, value)| *value).collect())?;
+        Some(format!(
+            "{} smallest with {}, {} {} times that, the median method {}, the worst {}",
+            YIELDS[which].label,
+            contest.methods[first].label,
+            contest.methods[ours].label,
+            number(own / least),
+            number(middle / least),
+            number(most / least)
+        ))
+    };
+    let parts: Vec<String> = [0, 1, 2].into_iter().filter_map(part).collect();
+    (!parts.is_empty()).then(|| format!("`{title}`: {}", parts.join(", ")))
+}
