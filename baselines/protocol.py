@@ -76,6 +76,22 @@ class Field:
 
         return at_point
 
+    def leaves(self):
+        """Lower left corners x and y, sides, and values at the corners of the leaves, an array of each."""
+        boxes = numpy.empty((len(self.child), 3))
+        boxes[0] = self.x0, self.y0, self.side
+        level = numpy.flatnonzero(self.child[:1] >= 0)
+        while level.size:
+            first = self.child[level]
+            x, y, side = boxes[level].T
+            side = 0.5 * side
+            for place, (right, above) in enumerate(((0, 0), (1, 0), (0, 1), (1, 1))):
+                boxes[first + place] = numpy.column_stack([x + right * side, y + above * side, side])
+            below = (first[:, None] + numpy.arange(4)).ravel()
+            level = below[self.child[below] >= 0]
+        leaf = self.child < 0
+        return *boxes[leaf].T, self.corners[leaf]
+
 
 class Uniform:
     """The same edge length everywhere."""

@@ -76,9 +76,24 @@ def set_up(size, request):
         gmsh.option.setNumber(name, value)
     if isinstance(size, protocol.Uniform):
         gmsh.option.setNumber("Mesh.MeshSizeMax", size.size)
+    elif request["parameters"]["algorithm"] == "bamg":
+        set_view(size)
     else:
         at_point = size.pointwise()
         gmsh.model.mesh.setSizeCallback(lambda _dim, _tag, x, y, _z, _size: at_point(x, y))
+
+
+def set_view(size):
+    """The leaves of the field as a view that gives sizes: BAMG asks a background field, and never the callback."""
+    x, y, side, values = size.leaves()
+    z = numpy.zeros_like(x)
+    corners = [x, x + side, x + side, x, y, y, y + side, y + side, z, z, z, z]
+    around = [values[:, 0], values[:, 1], values[:, 3], values[:, 2]]
+    view = gmsh.view.add("size")
+    gmsh.view.addListData(view, "SQ", len(x), numpy.column_stack(corners + around).ravel())
+    field = gmsh.model.mesh.field.add("PostView")
+    gmsh.model.mesh.field.setNumber(field, "ViewTag", view)
+    gmsh.model.mesh.field.setAsBackgroundMesh(field)
 
 
 def read_back():

@@ -56,6 +56,17 @@ class FieldByHand(unittest.TestCase):
         outside, nearest = [(-7, 0), (9, 9), (2.5, -4), (7, 1.5)], [(2, 0), (6, 3), (2.5, -1), (6, 1.5)]
         self.assertEqual(self.values(outside), self.values(nearest))
 
+    def test_leaves_are_where_the_tree_has_them(self):
+        x, y, side, values = read(BOX, CHILD, CORNERS).leaves()
+        found = sorted(zip(x.tolist(), y.tolist(), side.tolist(), values[:, 0].tolist()))
+        # in the order of CHILD: left below, left above, right above of the root, then the four right below
+        self.assertEqual(
+            found,
+            sorted(
+                [(2, -1, 2, 1), (2, 1, 2, 3), (4, 1, 2, 4), (4, -1, 1, 2), (5, -1, 1, 3), (4, 0, 1, 3), (5, 0, 1, 5)]
+            ),
+        )
+
     def test_a_root_alone(self):
         field = read((0.0, 0.0, 2.0), [-1], [[1.0, 2.0, 3.0, 8.0]])
         self.assertEqual(field.at(numpy.array([[1.0, 1.0], [2.0, 2.0]])).tolist(), [3.5, 8.0])

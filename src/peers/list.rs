@@ -67,6 +67,12 @@ pub static PEERS: &[Entry] = &[
                 default: "1",
                 help: "points that restrict the size stand s / density apart",
             },
+            Parameter {
+                name: "grading",
+                values: "0.01 to 1",
+                default: "0.3",
+                help: "how fast the size may grow away from where it is restricted",
+            },
         ],
         guarantees: &[],
         make: |given| peer("netgen", given),

@@ -31,7 +31,7 @@ pub const SIZE: Parameter = Parameter {
 pub const FIELD_ERROR: f64 = 0.01;
 
 /// What a peer may take beside the seconds it may mesh: interpreter, imports, files.
-const SET_UP: Duration = Duration::from_secs(120);
+const SET_UP: Duration = Duration::from_secs(60);
 
 /// Memory of a peer's process group where the request has no limit, bytes.
 const MEMORY: u64 = 8_000_000_000;

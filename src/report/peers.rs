@@ -4,7 +4,7 @@
 use super::duels::{YARDSTICKS, Yardstick};
 use super::markdown::{degrees, number, table};
 use crate::experiment::claims::ours;
-use crate::experiment::contest::{Contest, at_equal_count, at_equal_size};
+use crate::experiment::contest::{Contest, Method, at_equal_count, at_equal_size};
 use crate::experiment::record::{Outcome, Report, Row};
 use crate::experiment::summary::{first_seen, measured, median, quantile};
 use crate::peers::{self, PEERS};
@@ -32,7 +32,7 @@ pub(super) fn peers(rows: &[Row]) -> String {
             (0..contests[0].1.tasks.len()).all(|other| contests[0].1.tasks[other].spacing != timed.tasks[*task].spacing)
         })
         .map(|task| task_table(&timed, task, "equal edge length, once"));
-    who_was_there(rows) + &tasks.chain(largest).collect::<String>()
+    who_was_there(rows) + &tasks.chain(largest).collect::<String>() + &threads(rows)
 }
 
 /// Version of each peer, what it needs before it meshes, how many of its cells it measured.
@@ -80,6 +80,26 @@ fn who_was_there(rows: &[Row]) -> String {
      function in memory to the mesh in memory; what comes before is told here, in medians.\n\n"
         .to_owned()
         + &table(&head, &asked.map(|entry| line(entry.name)).collect::<Vec<_>>())
+}
+
+/// Speed by number of threads, of the methods that were run with several.
+fn threads(rows: &[Row]) -> String {
+    let own: Vec<&Row> = rows.iter().filter(|row| row.group == "threads").collect();
+    let line = |row: &&Row| {
+        vec![
+            Method::of(row).label,
+            row.cell.threads.to_string(),
+            measured(row).map_or_else(|| "–".to_owned(), |report| report.statistics.triangles.to_string()),
+            number(measured(row).and_then(speed)),
+            range_of(&row.samples),
+        ]
+    };
+    let lines: Vec<Vec<String>> = own.iter().map(line).collect();
+    if lines.is_empty() {
+        return String::new();
+    }
+    let head = ["mesher", "threads", "triangles", "10⁶ triangles/s", "range of repeats"];
+    format!("### Threads\n\n{}", table(&head, &lines))
 }
 
 /// Every method on one task.
