@@ -13,6 +13,7 @@
 //! | [`delaunay`] | points and boundary pieces → constrained Delaunay triangulation, carved |
 //! | [`mesh`] | the result: triangles, markers, regions, and its files |
 //! | [`quality`] | statistics and the certificate: every bound of the paper as a check |
+//! | [`fem`] | what quality is for: a Poisson problem on the mesh, its error, iterations and eigenvalues |
 //! | [`experiment`] | plans (TOML), the runner, records (JSON lines) |
 //! | [`charts`], [`report`] | figures by plotters, pages from rows alone |
 //! | [`cli`] | one file per verb |
@@ -31,6 +32,7 @@ pub mod cli;
 pub mod delaunay;
 pub mod domain;
 pub mod experiment;
+pub mod fem;
 pub mod files;
 pub mod geometry;
 pub mod mesh;
