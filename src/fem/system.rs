@@ -4,7 +4,8 @@ use super::element::Element;
 use super::matrix::Matrix;
 use super::quadrature::Quadrature;
 use super::{FemError, Problem};
-use crate::mesh::Mesh;
+use crate::geometry::DVec2;
+use crate::mesh::{Adjacency, Mesh};
 
 /// A x = b for the values at the free vertices.
 #[derive(Debug)]
@@ -47,26 +48,26 @@ pub(super) fn assemble(mesh: &Mesh, elements: &[Element], problem: &Problem) -> 
         })
     };
     let row_of: Vec<Option<u32>> = roles.iter().map(&mut number).collect();
-    let given: Vec<f64> = roles
-        .iter()
-        .zip(&mesh.points)
-        .map(|(role, x)| {
-            if *role == Role::Boundary {
-                problem.value(*x)
-            } else {
-                0.0
-            }
-        })
-        .collect();
+    let given = |(role, x): (&Role, &DVec2)| match role {
+        Role::Boundary => problem.value(*x),
+        Role::Free | Role::Unused => 0.0,
+    };
     let mut system = System {
         matrix: Matrix::zeros(&row_of, &adjacency.vertex_neighbours()),
         load: vec![0.0; rows as usize],
+        given: roles.iter().zip(&mesh.points).map(given).collect(),
         row_of,
-        given,
     };
     let quadrature = Quadrature::new();
+    let source = |element: &Element| {
+        let [part] = quadrature.magnitudes(element.corners, element.area, &|x| [problem.source(x)]);
+        part
+    };
+    let total: f64 = elements.iter().map(source).sum();
+    let area: f64 = elements.iter().map(|element| element.area).sum();
     for element in elements {
-        system.add(element, &quadrature, problem);
+        let floor = total * (element.area / area);
+        system.add(element, problem, &quadrature, floor);
     }
     // Boundary values that no free vertex feels do not reach the load, but they do reach the error.
     if system.load.iter().chain(&system.given).all(|value| value.is_finite()) {
@@ -76,7 +77,7 @@ pub(super) fn assemble(mesh: &Mesh, elements: &[Element], problem: &Problem) -> 
     }
 }
 
-fn roles(vertices: usize, adjacency: &crate::mesh::Adjacency) -> Result<Vec<Role>, FemError> {
+fn roles(vertices: usize, adjacency: &Adjacency) -> Result<Vec<Role>, FemError> {
     let mut roles = vec![Role::Unused; vertices];
     for edge in adjacency.edges() {
         if !edge.is_manifold() {
@@ -96,21 +97,22 @@ fn roles(vertices: usize, adjacency: &crate::mesh::Adjacency) -> Result<Vec<Role
 }
 
 impl System {
-    fn add(&mut self, element: &Element, quadrature: &Quadrature, problem: &Problem) {
+    /// Adds a triangle's part; the floor is the integral of |g| over a triangle that needs no digits of its own.
+    fn add(&mut self, element: &Element, problem: &Problem, quadrature: &Quadrature, floor: f64) {
         let rows = element.vertices.map(|vertex| self.row_of[vertex]);
         if rows.iter().all(Option::is_none) {
             return;
         }
-        let load = quadrature.integrate(element.corners, element.area, &|x| {
+        let load = quadrature.integrate(element.corners, element.area, [floor; 3], &|x| {
             let source = problem.source(x);
             element.barycentric(x).map(|weight| source * weight)
         });
         for i in 0..3 {
             let Some(row) = rows[i] else { continue };
             self.load[row as usize] += load[i];
-            for j in 0..3 {
+            for (j, column) in rows.into_iter().enumerate() {
                 let stiffness = element.stiffness(i, j);
-                match rows[j] {
+                match column {
                     Some(column) => self.matrix.add(row, column, stiffness),
                     None => self.load[row as usize] -= stiffness * self.given[element.vertices[j]],
                 }

@@ -57,29 +57,20 @@ pub(super) fn shaken(n: u32) -> Mesh {
 /// [`square`] of 8 × 8 with one vertex moved to a distance of `height` from the edge opposite it, over the edge's middle.
 pub(super) fn with_sliver(height: f64) -> Mesh {
     let mut mesh = square(8);
-    let t = mesh
-        .triangles
-        .iter()
-        .position(|triangle| {
-            triangle
-                .iter()
-                .all(|v| (0.2..0.8).contains(&mesh.points[*v as usize].x))
-        })
-        .unwrap();
-    let t = (t..mesh.triangles.len())
-        .find(|t| {
-            mesh.corners(*t)
-                .iter()
-                .all(|p| p.min_element() > 0.2 && p.max_element() < 0.8)
-        })
-        .unwrap();
-    let [a, b, c] = mesh.corners(t);
+    let inside = |t: &usize| {
+        let corners = mesh.corners(*t);
+        corners.iter().all(|p| p.min_element() > 0.2 && p.max_element() < 0.8)
+    };
+    let t = (0..mesh.triangles.len()).find(inside).unwrap();
+    let corners = mesh.corners(t);
     // The corner at the right angle goes towards the longest side, which keeps its other triangles right.
-    let k = [(a, b, c), (b, c, a), (c, a, b)]
-        .iter()
-        .position(|(p, q, r)| (*q - *p).dot(*r - *p).abs() < 1e-12)
-        .unwrap();
-    let (p, q, r) = [(a, b, c), (b, c, a), (c, a, b)][k];
+    let around = |k: usize| [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
+    let is_right = |k: &usize| {
+        let [p, q, r] = around(*k);
+        (q - p).dot(r - p).abs() < 1e-12
+    };
+    let k = (0..3).find(is_right).unwrap();
+    let [p, q, r] = around(k);
     let middle = 0.5 * (q + r);
     mesh.points[mesh.triangles[t][k] as usize] = middle + height * (p - middle).normalize();
     mesh
@@ -110,10 +101,16 @@ pub(super) fn preconditioned(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Smallest and largest eigenvalue of a symmetric matrix, by Jacobi's rotations until nothing is left beside the diagonal.
+/// Smallest and largest eigenvalue of a symmetric matrix, by Jacobi's rotations until next to nothing is left beside the
+/// diagonal; they converge for every symmetric matrix.
 pub(super) fn extremes_by_rotations(mut matrix: Vec<Vec<f64>>) -> [f64; 2] {
     let size = matrix.len();
-    for _ in 0..50 {
+    let beside = |matrix: &[Vec<f64>]| -> f64 {
+        let pairs = (0..size).flat_map(|i| (0..i).map(move |j| (i, j)));
+        pairs.map(|(i, j)| matrix[i][j].abs()).fold(0.0, f64::max)
+    };
+    let negligible = 1e-12 * beside(&matrix);
+    while beside(&matrix) > negligible {
         for p in 0..size {
             for q in p + 1..size {
                 rotate(&mut matrix, p, q);
@@ -136,9 +133,8 @@ fn rotate(matrix: &mut [Vec<f64>], p: usize, q: usize) {
     for row in matrix.iter_mut() {
         (row[p], row[q]) = (cosine * row[p] - sine * row[q], sine * row[p] + cosine * row[q]);
     }
-    for k in 0..matrix.len() {
-        let (one, other) = (matrix[p][k], matrix[q][k]);
-        matrix[p][k] = cosine * one - sine * other;
-        matrix[q][k] = sine * one + cosine * other;
+    let (above, below) = matrix.split_at_mut(q);
+    for (one, other) in above[p].iter_mut().zip(&mut below[0]) {
+        (*one, *other) = (cosine * *one - sine * *other, sine * *one + cosine * *other);
     }
 }

@@ -20,12 +20,23 @@ const SLOPE: Problem = Problem::BoundaryLayer { wall: 0.0, width: 1e9 };
 
 #[test]
 fn errors_fall_as_theory_says() {
-    for (name, coarse) in [("smooth", 8), ("boundary-layer", 128), ("layer", 64), ("peak", 32)] {
-        let [one, two] = [coarse, 2 * coarse].map(|n| solve(&shaken(n), &named(name)).unwrap());
+    // The named layers are thinner than meshes of a unit test resolve; wider ones have the same formulas.
+    let layer = Problem::Layer {
+        centre: DVec2::splat(-0.05),
+        radius: 0.7,
+        width: 0.1,
+    };
+    let peak = Problem::Peak {
+        centre: DVec2::splat(0.25),
+        width: 0.2,
+    };
+    let wall = Problem::BoundaryLayer { wall: 0.0, width: 0.2 };
+    for (problem, coarse) in [(named("smooth"), 8), (layer, 32), (peak, 16), (wall, 16)] {
+        let [one, two] = [coarse, 2 * coarse].map(|n| solve(&shaken(n), &problem).unwrap());
         let energy = (one.energy_error / two.energy_error).log2();
         let l2 = (one.l2_error / two.l2_error).log2();
-        assert!((energy - 1.0).abs() < 0.1, "{name}: energy order {energy}");
-        assert!((l2 - 2.0).abs() < 0.2, "{name}: L2 order {l2}");
+        assert!((energy - 1.0).abs() < 0.1, "{problem:?}: energy order {energy}");
+        assert!((l2 - 2.0).abs() < 0.2, "{problem:?}: L2 order {l2}");
     }
 }
 
@@ -34,20 +45,26 @@ fn a_reflex_corner_costs_a_third_of_the_order() {
     // The L as three of the square's quarters, with u's infinite gradient at the vertex in the middle.
     let [one, two] = [16, 32].map(|n| {
         let mut mesh = square(n);
-        let mesh_of_all = mesh.clone();
-        let mut t = 0;
-        mesh.triangles.retain(|_| {
-            let [a, b, c] = mesh_of_all.corners(t);
-            t += 1;
-            let middle = (a + b + c) / 3.0;
-            middle.x < 0.5 || middle.y < 0.5
+        let points = mesh.points.clone();
+        mesh.triangles.retain(|triangle| {
+            let middle = triangle.iter().map(|v| points[*v as usize]).sum::<DVec2>() / 3.0;
+            middle.min_element() < 0.5
         });
         solve(&mesh, &named("corner")).unwrap()
     });
     let order = (one.energy_error / two.energy_error).log2();
     assert!((order - 2.0 / 3.0).abs() < 0.05, "{order}");
-    // Dirichlet's integral of r^p cos(p φ) is that of u ∂u/∂n along the outer sides: here by its known symmetric halves.
-    assert!(one.energy_norm > 1.0 && (one.energy_norm / two.energy_norm - 1.0).abs() < 1e-4);
+    // |∇u|² = 4/9 r^(−2/3): six times 1/3 ∫ R(φ)^(4/3) dφ over an eighth of a turn, R = 1 / (2 cos φ).
+    let step = std::f64::consts::FRAC_PI_4 / 1e5;
+    let eighth: f64 = (0..100_000)
+        .map(|k| step * (2.0 * (step * (f64::from(k) + 0.5)).cos()).powf(-4.0 / 3.0))
+        .sum();
+    let exact = (2.0 * eighth).sqrt();
+    assert!(
+        (one.energy_norm / exact - 1.0).abs() < 1e-4,
+        "{} {exact}",
+        one.energy_norm
+    );
 }
 
 #[test]
@@ -98,9 +115,9 @@ fn stiffness_takes_no_notice_of_constants_and_is_symmetric() {
     }
     let matrix = dense(&mesh, &named("smooth"));
     assert_eq!(matrix.len(), 36);
-    for i in 0..matrix.len() {
-        for j in 0..i {
-            assert_eq!(matrix[i][j].to_bits(), matrix[j][i].to_bits());
+    for (i, row) in matrix.iter().enumerate() {
+        for (j, value) in row.iter().enumerate() {
+            assert_eq!(value.to_bits(), matrix[j][i].to_bits());
         }
     }
     // The middle vertex of four right triangles: the five-point stencil, whichever way they are cut.
@@ -123,7 +140,7 @@ fn the_dense_oracle_knows_the_second_difference() {
 
 #[test]
 fn eigenvalues_are_those_of_the_dense_matrix() {
-    for mesh in [square(2), square(9), shaken(9), with_sliver(1e-3)] {
+    for mesh in [square(2), shaken(7), with_sliver(1e-3)] {
         for name in ["smooth", "layer"] {
             let matrix = dense(&mesh, &named(name));
             let [low, high] = extremes_by_rotations(preconditioned(&matrix));
@@ -146,7 +163,7 @@ fn eigenvalues_are_those_of_the_dense_matrix() {
 #[test]
 fn eigenvalues_of_a_large_square_are_those_of_its_stencil() {
     // All matrices of right triangles are the five-point stencil, with eigenvalues 4 − 2 cos(π i h) − 2 cos(π j h).
-    let n = 120;
+    let n = 60;
     let found = solve(&square(n), &named("layer")).unwrap().spectrum.unwrap();
     let cosine = (std::f64::consts::PI / f64::from(n)).cos();
     assert!((found.largest / (4.0 + 4.0 * cosine) - 1.0).abs() < 3e-4, "{found:?}");
@@ -158,24 +175,25 @@ fn eigenvalues_of_a_large_square_are_those_of_its_stencil() {
 
 #[test]
 fn iterations_grow_like_the_number_of_vertices_across() {
-    let [one, two] = [24, 48].map(|n| solve(&shaken(n), &named("layer")).unwrap().iterations as f64);
+    let [one, two] = [16, 32].map(|n| solve(&shaken(n), &named("layer")).unwrap().iterations as f64);
     assert!((two / one - 2.0).abs() < 0.25, "{one} {two}");
 }
 
 /// The point of mesh quality: one triangle whose smallest angle halves doubles the largest eigenvalue.
 #[test]
 fn a_sliver_raises_the_largest_eigenvalue_like_one_over_its_angle() {
-    let largest = |height: f64| {
-        solve(&with_sliver(height), &named("smooth"))
-            .unwrap()
-            .spectrum
-            .unwrap()
-            .largest
-    };
-    let good = solve(&square(8), &named("smooth")).unwrap().spectrum.unwrap().largest;
-    let [thin, thinner] = [1e-3, 1e-5].map(largest);
-    assert!(thin > 10.0 * good, "{thin} {good}");
-    assert!((thinner / thin - 100.0).abs() < 10.0, "{thin} {thinner}");
+    let spectrum = |mesh: &Mesh| solve(mesh, &named("smooth")).unwrap().spectrum.unwrap();
+    let good = spectrum(&square(8));
+    let [thin, thinner] = [1e-3, 1e-5].map(|height| spectrum(&with_sliver(height)));
+    assert!(thin.largest > 10.0 * good.largest, "{thin:?} {good:?}");
+    assert!(
+        (thinner.largest / thin.largest - 100.0).abs() < 10.0,
+        "{thin:?} {thinner:?}"
+    );
+    // The diagonal hides it at the upper end; it comes out at the lower.
+    assert!(thinner.largest_preconditioned < 3.0 && good.largest_preconditioned < 3.0);
+    let ratio = thin.smallest_preconditioned / thinner.smallest_preconditioned;
+    assert!((50.0..101.0).contains(&ratio), "{thin:?} {thinner:?}");
 }
 
 #[test]
@@ -282,16 +300,18 @@ fn bad_meshes_are_told_with_the_triangle() {
 }
 
 #[test]
-fn a_centre_inside_the_domain_is_told() {
-    let problem = Problem::Layer {
-        centre: DVec2::splat(0.5),
-        radius: 0.25,
-        width: 0.1,
-    };
-    // The centre is a vertex: no point of the rule, but 1 / r is so steep that a finite answer would be a wrong one only
-    // where the rule hits it; here it is the centroid of a triangle.
-    let mut mesh = square(1);
-    mesh.points = vec![DVec2::new(0.5, 1.5), DVec2::ZERO, DVec2::X, DVec2::new(2.0, 2.0)];
-    mesh.triangles = vec![[0, 1, 2]];
-    assert!(matches!(solve(&mesh, &problem), Err(FemError::NotFinite { .. })));
+fn a_problem_that_is_not_finite_is_told() {
+    let centre = DVec2::splat(0.3);
+    for problem in [
+        Problem::Peak { centre, width: 0.0 },
+        Problem::BoundaryLayer { wall: 0.5, width: 1e-3 },
+        Problem::Layer {
+            centre: DVec2::NAN,
+            radius: 0.25,
+            width: 0.1,
+        },
+    ] {
+        let found = solve(&square(4), &problem);
+        assert!(matches!(found, Err(FemError::NotFinite { .. })), "{found:?}");
+    }
 }
