@@ -311,15 +311,11 @@ pub fn judge(domain: &Domain, mesh: &Mesh, bounds: Option<&Bounds>) -> (Statisti
     (statistics::measure(&subject), certificate(&subject))
 }
 
-/// The claims by which triangles are known to make up the domain.
-const STRUCTURE_OF_A_WHOLE: [&str; 4] = ["positive-orientation", "area", "manifold-edges", "boundary-on-segments"];
-
 fn certificate(subject: &subject::Subject) -> Certificate {
-    let mut checks = structure::checks(subject);
+    let structure = structure::Structure::of(subject);
+    let is_whole = structure.is_whole();
+    let mut checks = structure.into_checks();
     if let Some(sizes) = &subject.sizes {
-        let is_whole = checks
-            .iter()
-            .all(|check| check.holds || !STRUCTURE_OF_A_WHOLE.contains(&check.claim.as_str()));
         checks.push(coverage::packing_check(sizes));
         checks.push(coverage::coverage_check(subject, sizes, is_whole));
         checks.push(sizes.heights.check(sizes.applies("boundary-height")));

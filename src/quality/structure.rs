@@ -9,18 +9,57 @@ use crate::geometry::predicates::{in_circle, orient2d};
 use crate::geometry::tolerance::AREA;
 use crate::mesh::Edge;
 
-/// All structural checks, in the order of the table in [`super`].
-pub fn checks(subject: &Subject) -> Vec<Check> {
-    vec![
-        positive_orientation(subject),
-        area(subject),
-        vertices_used(subject),
-        input_vertices(subject),
-        input_segments(subject),
-        manifold_edges(subject),
-        boundary_on_segments(subject),
-        constrained_delaunay(subject),
-    ]
+/// All structural checks.
+pub struct Structure {
+    positive_orientation: Check,
+    area: Check,
+    vertices_used: Check,
+    input_vertices: Check,
+    input_segments: Check,
+    manifold_edges: Check,
+    boundary_on_segments: Check,
+    constrained_delaunay: Check,
+}
+
+impl Structure {
+    /// Of a mesh.
+    pub fn of(subject: &Subject) -> Self {
+        Self {
+            positive_orientation: positive_orientation(subject),
+            area: area(subject),
+            vertices_used: vertices_used(subject),
+            input_vertices: input_vertices(subject),
+            input_segments: input_segments(subject),
+            manifold_edges: manifold_edges(subject),
+            boundary_on_segments: boundary_on_segments(subject),
+            constrained_delaunay: constrained_delaunay(subject),
+        }
+    }
+
+    /// Whether the triangles are known to make up the domain.
+    pub fn is_whole(&self) -> bool {
+        let needed = [
+            &self.positive_orientation,
+            &self.area,
+            &self.manifold_edges,
+            &self.boundary_on_segments,
+        ];
+        needed.iter().all(|check| check.holds)
+    }
+
+    /// In the order of the table in [`super`].
+    pub fn into_checks(self) -> Vec<Check> {
+        vec![
+            self.positive_orientation,
+            self.area,
+            self.vertices_used,
+            self.input_vertices,
+            self.input_segments,
+            self.manifold_edges,
+            self.boundary_on_segments,
+            self.constrained_delaunay,
+        ]
+    }
 }
 
 fn positive_orientation(subject: &Subject) -> Check {

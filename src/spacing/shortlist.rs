@@ -241,3 +241,88 @@ impl Shortlists {
         (self.tree.nodes.len(), self.tree.lists.len())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::features::Feature;
+    use super::super::testing::pseudo_random_points;
+    use super::*;
+
+    fn rect(min: (f64, f64), max: (f64, f64)) -> Rect {
+        Rect {
+            min: min.into(),
+            max: max.into(),
+        }
+    }
+
+    fn vertices(points: impl IntoIterator<Item = DVec2>) -> Features {
+        let vertex = |(at, index)| Feature::new([at; 2], [index; 2]);
+        Features::new(points.into_iter().zip(0..).map(vertex).collect())
+    }
+
+    /// The leaves of a tree: cell, depth, list.
+    fn leaves(lists: &Shortlists) -> Vec<(Rect, usize, &[u32])> {
+        let Tree { nodes, lists: entries } = &lists.tree;
+        let mut pending = vec![(lists.root, 0, nodes[0])];
+        let mut leaves = Vec::new();
+        while let Some((cell, depth, node)) = pending.pop() {
+            let first = node.first as usize;
+            if node.count == INNER {
+                let children = parts(cell).into_iter().zip(&nodes[first..first + 4]);
+                pending.extend(children.map(|(part, child)| (part, depth + 1, *child)));
+            } else {
+                leaves.push((cell, depth, &entries[first..first + node.count as usize]));
+            }
+        }
+        leaves
+    }
+
+    #[test]
+    fn a_cell_has_four_quarters_or_where_it_is_more_than_twice_as_long_as_wide_four_strips_across() {
+        let quarters = [
+            rect((0.0, 0.0), (0.5, 0.25)),
+            rect((0.0, 0.25), (0.5, 0.5)),
+            rect((0.5, 0.0), (1.0, 0.25)),
+            rect((0.5, 0.25), (1.0, 0.5)),
+        ];
+        assert_eq!(parts(rect((0.0, 0.0), (1.0, 0.5))), quarters);
+        assert_eq!(
+            (shape(quarters[0]), shape(rect((0.0, 0.0), (0.5, 1.0)))),
+            ([0, 1], [0, 1])
+        );
+        let across = [0.0, 0.25, 0.5, 0.75].map(|x| rect((x, 0.0), (x + 0.25, 0.375)));
+        assert_eq!(parts(rect((0.0, 0.0), (1.0, 0.375))), across);
+        let across = [0.0, 0.25, 0.5, 0.75].map(|y| rect((0.0, y), (0.375, y + 0.25)));
+        assert_eq!(parts(rect((0.0, 0.0), (0.375, 1.0))), across);
+    }
+
+    #[test]
+    fn the_list_at_a_point_is_that_of_the_leaf_it_is_in_and_decides_as_all_features_do() {
+        let points = pseudo_random_points(600);
+        let (features, all) = (vertices(points.iter().copied()), (0..600).collect::<Vec<u32>>());
+        let lists = Shortlists::new(&features, rect((0.0, 0.0), (1.0, 3.0)));
+        let leaves = leaves(&lists);
+        let entries: usize = leaves.iter().map(|(_, _, list)| list.len()).sum();
+        assert_eq!(lists.size(), (1 + (leaves.len() - 1) / 3 * 4, entries));
+        for (cell, _, list) in &leaves {
+            // The lower corner too: of cells that meet in a point, it is in the one to the right and above.
+            for x in [cell.min, cell.centre()] {
+                assert_eq!(lists.at(x), Some(*list), "{x}");
+            }
+            for x in [cell.min, cell.centre(), cell.max] {
+                assert_eq!(features.decide(list, x).0, features.decide(&all, x).0, "{x}");
+            }
+        }
+        for outside in [(-1e-9, 0.5), (0.5, 3.000_001)] {
+            assert_eq!(lists.at(outside.into()), None);
+        }
+    }
+
+    /// Too near to one another for any cell of that depth to tell them apart.
+    #[test]
+    fn no_tree_is_deeper_than_cells_can_be_told_apart() {
+        let features = vertices((0..2 * SHORT).map(|k| 1e-20 * DVec2::from_angle(0.1 + 0.04 * k as f64)));
+        let lists = Shortlists::new(&features, rect((-1.0, -1.0), (1.0, 1.0)));
+        assert_eq!(leaves(&lists).iter().map(|(_, depth, _)| *depth).max(), Some(DEPTH));
+    }
+}

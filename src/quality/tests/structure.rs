@@ -1,6 +1,8 @@
 //! Worst values, places and rooms of the structural checks.
 
 use super::*;
+use crate::quality::structure::Structure;
+use crate::quality::subject::Subject;
 
 fn checked(domain: &Domain, mesh: &Mesh, claim: &str) -> Check {
     judge(domain, mesh, None).1.check(claim).unwrap().clone()
@@ -143,4 +145,26 @@ fn a_mesh_need_not_be_delaunay_where_nobody_claims_it() {
     assert!(certificate.holds && !certificate.check("constrained-delaunay").unwrap().holds);
     let (_, certificate) = judge(&domain, &long, Some(&bounds(&UNIFORM, 0.5)));
     assert!(!certificate.holds);
+}
+
+#[test]
+fn triangles_turned_over_missing_or_twice_do_not_make_up_the_domain() {
+    let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
+    let is_whole = |change: &dyn Fn(&mut Mesh)| {
+        let mut mesh = good.clone();
+        change(&mut mesh);
+        Structure::of(&Subject::new(&square, &mesh, None)).is_whole()
+    };
+    assert!(is_whole(&|_| {}));
+    assert!(
+        is_whole(&|mesh| mesh.points.push(p(0.3, 0.3))),
+        "a vertex in no triangle"
+    );
+    assert!(!is_whole(&|mesh| mesh.triangles[0] = [1, 0, 4]));
+    assert!(!is_whole(&|mesh| mesh.triangles.truncate(3)));
+    assert!(!is_whole(&|mesh| mesh.triangles.push([0, 1, 4])));
+    assert!(
+        !is_whole(&|mesh| mesh.points[2] = p(1.0, 1.0 + 1e-12)),
+        "off the segments"
+    );
 }

@@ -38,21 +38,23 @@ pub fn triangles(function: &dyn Spacing, domain: &Domain) -> Result<Vec<Triangle
         }
     };
     let reach_at = |x: DVec2| checked(function, x).map(reach);
-    let base = base(domain, reach_at)?;
+    let base = base(domain, reach_at, MOST)?;
     let triangles = base.map_or(Ok(None), |base| cut(base, reach_at, MOST))?;
     triangles.ok_or_else(|| narrowest(function, domain))
 }
 
-/// The triangulation of the domain with further points on its segments and inside; none if they are too many.
+/// The triangulation of the domain with further points on its segments and inside; none if it would have more than `most`
+/// triangles, of which there are about two a point inside.
 pub(super) fn base(
     domain: &Domain,
     reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
+    most: usize,
 ) -> Result<Option<Vec<Triangle>>, SpacingError> {
     let mut points = domain.vertices().to_vec();
     let mut pieces = Vec::new();
     for (segment, ends) in domain.segments().iter().zip(0..) {
         let first = points.len() as u32;
-        let room = MOST.saturating_sub(points.len());
+        let room = most.saturating_sub(points.len());
         let Some(between) = inner_points(domain.ends(ends as usize), &reach_at, room)? else {
             return Ok(None);
         };
@@ -68,7 +70,7 @@ pub(super) fn base(
             segment: ends,
         }));
     }
-    let room = (MOST / 2).saturating_sub(points.len());
+    let room = (most / 2).saturating_sub(points.len());
     let Some(inside) = middles(domain, &reach_at, room)? else {
         return Ok(None);
     };

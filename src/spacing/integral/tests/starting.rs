@@ -36,7 +36,7 @@ fn the_longest_edge_is_cut_in_its_middle() {
 #[test]
 fn triangles_are_cut_until_none_is_longer_than_f_over_its_constant_and_no_further() {
     let domain = gallery("l-shape");
-    let whole = base(&domain, |_| Ok(f64::INFINITY)).unwrap().unwrap();
+    let whole = base(&domain, |_| Ok(f64::INFINITY), usize::MAX).unwrap().unwrap();
     let reach = |x: DVec2| 0.1 + 0.2 * x.x;
     let cut_to = |most: usize| cut(whole.clone(), |x| Ok(reach(x)), most).unwrap();
     let parts = cut_to(usize::MAX).unwrap();
@@ -105,11 +105,13 @@ fn cells_that_no_segment_meets_have_their_middles_as_vertices() {
     assert_eq!(found, expected.map(DVec2::from));
     // Room for the cells that are still looked at, too.
     assert!(inside(0.4, 16).is_some() && inside(0.4, 15).is_none());
-    let count = |reach: f64| base(&domain, |_| Ok(reach)).unwrap().map(|parts| parts.len());
+    let count = |reach: f64, most: usize| base(&domain, |_| Ok(reach), most).unwrap().map(|parts| parts.len());
     // Eight vertices on the boundary and none inside; 16 and 4.
-    assert_eq!((count(0.8), count(0.4)), (Some(6), Some(22)));
-    assert_eq!(count(1e-9), None);
-    assert!(base(&domain, |_| Err(SpacingError::NoFeatures)).is_err());
+    assert_eq!((count(0.8, 1000), count(0.4, 1000)), (Some(6), Some(22)));
+    // Two triangles a point: those 16, and the 16 cells.
+    assert_eq!((count(0.4, 64), count(0.4, 63)), (Some(22), None));
+    assert_eq!(count(1e-9, 1000), None);
+    assert!(base(&domain, |_| Err(SpacingError::NoFeatures), 1000).is_err());
 }
 
 #[test]
