@@ -10,7 +10,7 @@ import mmgpy  # noqa: E402
 import numpy  # noqa: E402
 import start  # noqa: E402
 
-SAMPLES = 1000  # of the size along an inner segment
+SAMPLES = 1000  # of the size along a segment
 OFF = -1.0  # for a gradation: the sizes are as they shall be
 
 
@@ -35,19 +35,17 @@ def pieces(begin, end, size):
 
 
 def set_up(domain, size):
-    """The start, its inner segments cut to size: mmg loses one that is not required, and cuts none that is."""
-    points, triangles, edges = start.triangulate(domain)
-    inner = two_sided(triangles, edges)
-    if not inner.any():
-        return points, triangles, edges, inner
-    chains = [edges[~inner]]
-    for begin, end in edges[inner].tolist():
+    """The start with all segments cut to size, which of its edges are inner, and how many points are the domain's: the first."""
+    points, _, edges = start.triangulate(domain)
+    corners = len(points)
+    chains = []
+    for begin, end in edges.tolist():
         cuts = pieces(points[begin], points[end], size)
         chain = [begin, *range(len(points), len(points) + len(cuts)), end]
         points = numpy.concatenate([points, cuts])
         chains.append(numpy.column_stack([chain[:-1], chain[1:]]))
     points, triangles, edges = start.triangulate(protocol.Poly(points, numpy.concatenate(chains), domain.holes))
-    return points, triangles, edges, two_sided(triangles, edges)
+    return points, triangles, edges, two_sided(triangles, edges), corners
 
 
 def remesh(points, triangles, edges, inner, corners, size):
@@ -69,8 +67,8 @@ def mesh(domain, size, request):
     """Passes of remeshing, each to the sizes at the points that the one before left."""
     if size is None:
         raise protocol.Declined("mmg needs a size: it has no refinement by angles alone")
-    points, triangles, edges, inner = set_up(domain, size)
-    corners = numpy.arange(len(points), dtype=numpy.int32)  # which stay the first points of every pass
+    points, triangles, edges, inner, count = set_up(domain, size)
+    corners = numpy.arange(count, dtype=numpy.int32)  # which stay the first points of every pass
     counts = {"start_triangles": len(triangles)}
     yield
     for _ in range(request["parameters"]["passes"]):
