@@ -40,7 +40,7 @@ fn commands_run_as_written() {
     for arguments in commands {
         let mut command = Command::new(env!("CARGO_BIN_EXE_biting"));
         command.args(&arguments);
-        if arguments[0] == "sweep" {
+        if ["sweep", "compare"].contains(&arguments[0].as_str()) {
             command.arg("--dry-run").current_dir(root);
         } else {
             command.current_dir(folder.path());

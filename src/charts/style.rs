@@ -183,3 +183,21 @@ fn cross(tip: (i32, i32)) -> Vec<(i32, i32)> {
     points.push(points[0]);
     points
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::meshers::MESHERS;
+    use crate::peers::PEERS;
+
+    #[test]
+    fn no_two_meshers_look_alike() {
+        let looks: Vec<(RGBColor, Shape)> = (0..MESHERS.len() + PEERS.len())
+            .map(|place| mesher(place, true))
+            .map(|marker| (marker.colour, marker.shape))
+            .collect();
+        for (place, look) in looks.iter().enumerate() {
+            assert!(!looks[..place].contains(look), "{place}: {look:?}");
+        }
+    }
+}

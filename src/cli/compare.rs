@@ -39,7 +39,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         )));
     }
     if arguments.install {
-        return install_peers(&arguments.only);
+        return install_peers(&arguments.only, arguments.how.dry_run);
     }
     for (name, state) in install::survey() {
         match state {
@@ -57,8 +57,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     })
 }
 
-/// Installs peers, the named ones or all; one that cannot be had does not stop the others.
-fn install_peers(only: &[String]) -> Outcome {
+/// Installs peers, the named ones or all; one that cannot be had does not stop the others. A dry run only names them.
+fn install_peers(only: &[String], dry_run: bool) -> Outcome {
     if let Some(ours) = only
         .iter()
         .find(|name| MESHERS.iter().any(|entry| entry.name == **name))
@@ -70,6 +70,10 @@ fn install_peers(only: &[String]) -> Outcome {
         .filter(|entry| only.is_empty() || only.iter().any(|name| name == entry.name));
     let mut failed = Vec::new();
     for entry in wanted {
+        if dry_run {
+            say(format_args!("{}: would be installed", entry.name));
+            continue;
+        }
         say_aside(format_args!("{}: installing", entry.name));
         match install::install(entry.name) {
             Ok(()) => say(format_args!("{}: installed", entry.name)),

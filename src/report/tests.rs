@@ -1,5 +1,6 @@
 //! Findings against numbers worked out by hand, and the page as files.
 
+mod outside;
 mod rivals;
 
 use super::findings::{broken_checks, claims, fewest, margins, of_group, order_findings, slopes, tally};

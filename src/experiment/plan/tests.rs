@@ -82,6 +82,47 @@ fn several_meshers_stand_in_one_group() {
 }
 
 #[test]
+fn groups_share_lists_of_methods() {
+    let shared = r#"
+    [methods]
+    two = [{ mesher = "biting" }, { mesher = "another" }]
+    one = [{ mesher = "another" }]
+    [[group]]"#;
+    let text = PLAN
+        .replacen("    [[group]]", shared, 1)
+        .replacen("mesher = \"biting\"", "methods = \"two\"", 1)
+        .replacen("t = [0.25] }", "t = [0.25], methods = \"one\" }", 1);
+    let plan = read(&text).expect("a plan");
+    let count = |plan: &Plan, mesher: &str| {
+        let cells = plan.cells().expect("cells");
+        cells.iter().filter(|planned| planned.cell.mesher == mesher).count()
+    };
+    assert_eq!((count(&plan, "biting"), count(&plan, "another")), (17, 16));
+    let quick = plan.into_quick();
+    assert_eq!((count(&quick, "biting"), count(&quick, "another")), (0, 4));
+    let unknown = read(&text.replacen("\"two\"", "\"three\"", 1))
+        .expect_err("no such list")
+        .to_string();
+    assert!(unknown.contains("no list `three`"), "{unknown}");
+}
+
+#[test]
+fn counts_threads_and_a_problem_are_part_of_a_cell() {
+    let lists = "timed = true\nequal_triangles = [100, 200]\nthreads = [1, 2]\npoisson = \"smooth\"";
+    let plan = read(&PLAN.replacen("timed = true", lists, 1)).expect("a plan");
+    let cells = plan.cells().expect("cells");
+    let keys: Vec<&str> = cells[16..].iter().map(|planned| planned.key.as_str()).collect();
+    let base = "time/unit-square/lfs/biting,order=fifo/t=0.25/c_b=1";
+    let expected = [(100, ""), (100, "/threads=2"), (200, ""), (200, "/threads=2")]
+        .map(|(count, threads)| format!("{base}/triangles={count}{threads}/poisson=smooth/timed"));
+    assert_eq!(keys, expected);
+    assert_eq!(cells[17].cell.threads, 2);
+    let unknown = read(&PLAN.replacen("timed = true", "timed = true\npoisson = \"rough\"", 1));
+    let told = unknown.expect_err("no such problem").to_string();
+    assert!(told.contains("`rough`") && told.contains("smooth"), "{told}");
+}
+
+#[test]
 fn mistakes_are_named_with_file_and_place() {
     for (from, to, expected) in [
         (
