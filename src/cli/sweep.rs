@@ -80,7 +80,7 @@ pub struct How {
     fresh: bool,
     /// Print the cells and an estimate of the time, and run nothing
     #[arg(long)]
-    dry_run: bool,
+    pub(super) dry_run: bool,
     /// Cells that run side by side [default: all cores]
     #[arg(long)]
     threads: Option<usize>,

@@ -19,6 +19,9 @@ const ADAPTER: &str = "adapter.py";
 const REQUIREMENTS: &str = "requirements.txt";
 const SCRIPT: &str = "install";
 
+/// Endings of the sources that folders share.
+const SHARED: [&str; 2] = ["hpp", "rs"];
+
 /// What changes without the installation growing old.
 const NOT_INSTALLED: [&str; 2] = [ADAPTER, "README.md"];
 
@@ -120,10 +123,19 @@ fn output(command: &mut Command) -> Result<(), String> {
     Err(lines[lines.len().saturating_sub(3)..].join("; "))
 }
 
-/// A digest of what an installation is made from: FNV-1a over names and bytes of the folder's files, in order of names.
+/// A digest of what an installation is made from: FNV-1a over names and bytes of the folder's files and, where there is
+/// something to compile, the sources that folders share, in order of names.
 fn digest(folder: &Path) -> io::Result<String> {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     let mut files = files_of(folder)?;
+    if let Some(shared) = folder.parent().filter(|_| folder.join(SCRIPT).is_file()) {
+        for entry in fs::read_dir(shared)? {
+            let path = entry?.path();
+            if path.extension().is_some_and(|ending| SHARED.iter().any(|kind| ending == *kind)) {
+                files.push(path);
+            }
+        }
+    }
     files.sort();
     for file in files {
         let name = file
@@ -211,5 +223,8 @@ mod tests {
         fs::write(baselines.join("snake/requirements.txt"), "snake==2").expect("a file");
         let told = command_in(&cache, &baselines, "snake").expect_err("old");
         assert!(told.contains("renews"), "{told}");
+        // Sources that folders share are compiled in.
+        fs::write(baselines.join("shared.hpp"), "int x;").expect("a file");
+        assert!(command_in(&cache, &baselines, "stone").is_err());
     }
 }

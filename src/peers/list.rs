@@ -39,7 +39,7 @@ pub static PEERS: &[Entry] = &[
                 name: "aspect",
                 values: "0.001 to 0.125",
                 default: "0.125",
-                help: "B, the least squared sine of an angle times one half, which ends for sure up to 0.125",
+                help: "B, the squared sine of the smallest angle: refinement ends for sure up to 0.125, which is 20.7°",
             },
             Parameter {
                 name: "lloyd",
@@ -47,6 +47,7 @@ pub static PEERS: &[Entry] = &[
                 default: "0",
                 help: "steps of Lloyd's optimisation afterwards",
             },
+            SIZE,
         ],
         guarantees: &[],
         make: |given| peer("cgal", given),
