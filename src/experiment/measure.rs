@@ -78,6 +78,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
     let size_ratio = triangles / integral;
     let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*prepared.spacing, c_b);
     let bounds = prepared.bounds(c_b, &guaranteed);
+    let (poisson, poisson_failed) = poisson(cell, site, run);
     let (statistics, certificate) = quality::judge(&site.domain, &run.mesh, Some(&bounds));
     Report {
         domain: site.domain.name().into(),
@@ -106,17 +107,25 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
         rss_before_bytes: run.rss_before_bytes,
         peak_rss_bytes: run.peak_rss_bytes,
         outside: run.outside.clone(),
-        poisson: cell.poisson.as_deref().and_then(|name| poisson(name, site, run)),
+        poisson,
+        poisson_failed,
         counts: run.counts.clone(),
         certificate,
         provenance: provenance.clone(),
     }
 }
 
-/// Solves a Poisson problem on the mesh; absent where that cannot be done, as on a mesh that is none of the domain.
-fn poisson(name: &str, site: &Site, run: &Run) -> Option<Solution> {
-    let problem = Problem::named(name, site.domain.bounds()).ok()?;
-    fem::solve(&run.mesh, &problem).ok()
+/// Solves the Poisson problem that a cell asks for, if it asks; or tells why it cannot be solved, as on a mesh that is none of
+/// the domain.
+fn poisson(cell: &Cell, site: &Site, run: &Run) -> (Option<Solution>, Option<String>) {
+    let Some(name) = &cell.poisson else {
+        return (None, None);
+    };
+    let solved = Problem::named(name, site.domain.bounds()).and_then(|problem| fem::solve(&run.mesh, &problem));
+    match solved {
+        Ok(solution) => (Some(solution), None),
+        Err(error) => (None, Some(error.to_string())),
+    }
 }
 
 /// All parameters of a cell's mesher: those it names, and the defaults of the rest.

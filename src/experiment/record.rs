@@ -99,6 +99,9 @@ pub struct Report {
     /// What came of the Poisson problem that the cell asks for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poisson: Option<Solution>,
+    /// Why nothing came of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poisson_failed: Option<String>,
     /// Counts the mesher reports of itself, such as bites.
     pub counts: BTreeMap<String, f64>,
     /// The certificate.

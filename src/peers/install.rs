@@ -131,7 +131,10 @@ fn digest(folder: &Path) -> io::Result<String> {
     if let Some(shared) = folder.parent().filter(|_| folder.join(SCRIPT).is_file()) {
         for entry in fs::read_dir(shared)? {
             let path = entry?.path();
-            if path.extension().is_some_and(|ending| SHARED.iter().any(|kind| ending == *kind)) {
+            if path
+                .extension()
+                .is_some_and(|ending| SHARED.iter().any(|kind| ending == *kind))
+            {
                 files.push(path);
             }
         }

@@ -54,7 +54,7 @@ pub fn run(command: &[OsString], folder: &Path, threads: usize, limits: Limits) 
     let Some((program, arguments)) = command.split_first() else {
         return Err(io::Error::other("no program"));
     };
-    let mut start = Command::new(program);
+    let mut start = tied(program);
     start
         .args(arguments)
         .arg(super::exchange::REQUEST)
@@ -79,6 +79,19 @@ pub fn run(command: &[OsString], folder: &Path, threads: usize, limits: Limits) 
     let status = group.0.wait()?;
     let said = last_line(&String::from_utf8_lossy(&std::fs::read(&errors)?));
     Ok(ending(status, said))
+}
+
+/// Of util-linux: has a program killed when the process that started it dies, which nothing safe in Rust can ask for.
+const SETPRIV: &str = "/usr/bin/setpriv";
+
+/// A command that does not outlive this process, however that ends, where there is the tool for it.
+fn tied(program: &OsString) -> Command {
+    if !Path::new(SETPRIV).is_file() {
+        return Command::new(program);
+    }
+    let mut command = Command::new(SETPRIV);
+    command.args(["--pdeathsig", "KILL", "--"]).arg(program);
+    command
 }
 
 fn ending(status: ExitStatus, said: String) -> Ending {

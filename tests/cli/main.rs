@@ -7,6 +7,8 @@ use std::path::Path;
 
 mod battery;
 #[cfg(unix)]
+mod compare;
+#[cfg(unix)]
 mod disk;
 mod fingerprints;
 mod sweep;
