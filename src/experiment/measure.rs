@@ -34,11 +34,18 @@ pub struct Run {
 /// # Errors
 /// The mesher's.
 pub fn run(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Result<Run, MeshError> {
-    let mut trace = Trace::default();
+    let mut trace = Trace {
+        background: prepared.background.get().cloned(),
+        ..Trace::default()
+    };
     let rss_before_bytes = resident_bytes().unwrap_or(0);
     let start = Instant::now();
     let mesh = mesher.mesh(&prepared.site.domain, &*prepared.spacing, request, &mut trace)?;
     let total = start.elapsed().as_secs_f64();
+    if let Some(background) = trace.background.take() {
+        // Where another thread was first, its is the same.
+        let _ = prepared.background.set(background);
+    }
     let mut steps = Map::new();
     for (name, duration) in &trace.steps {
         let before = steps.get(*name).and_then(Value::as_f64).unwrap_or(0.0);

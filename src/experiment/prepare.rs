@@ -4,7 +4,7 @@ use super::record::Cell;
 use super::work::Outlook;
 use crate::domain::{self, Domain, DomainError, RepairReport};
 use crate::quality::Bounds;
-use crate::spacing::{self, Integral, Lfs, Options, Spacing, SpacingError};
+use crate::spacing::{self, Background, Integral, Lfs, Options, Spacing, SpacingError};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -61,6 +61,8 @@ pub struct Prepared {
     pub spacing: Arc<dyn Spacing>,
     /// ∫ dA / f² of that.
     pub integral: Integral,
+    /// The spacing on a background mesh, once a mesher has made one.
+    pub background: OnceLock<Arc<Background>>,
 }
 
 impl Prepared {
@@ -199,6 +201,7 @@ impl Store {
                 lfs_cap,
                 spacing: base.spacing.clone(),
                 integral: base.integral,
+                background: OnceLock::new(),
             });
         };
         let refused = told(&site.domain);
@@ -216,6 +219,7 @@ impl Store {
             lfs_cap,
             spacing,
             integral,
+            background: OnceLock::new(),
         })
     }
 

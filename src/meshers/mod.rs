@@ -2,8 +2,9 @@
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::spacing::Spacing;
+use crate::spacing::{Background, Spacing};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 pub mod advancing_front;
@@ -248,6 +249,9 @@ pub struct Trace {
     pub counts: Vec<(&'static str, f64)>,
     /// What a mesher outside this crate told of its run: its own clock counts, not ours.
     pub outside: Option<Outside>,
+    /// The spacing on a background mesh, from an earlier run on the same domain and spacing or for the next one: a mesher
+    /// that needs it makes it where it is not there.
+    pub background: Option<Arc<Background>>,
 }
 
 /// A run in a process of its own, as the program tells it.

@@ -3,11 +3,12 @@
 use crate::domain::Domain;
 use crate::mesh::{self, Mesh};
 use crate::meshers::{Outside, Parameters, Request};
-use crate::spacing::{Background, Spacing};
+use crate::spacing::Background;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Version of the protocol.
 const PROTOCOL: u32 = 1;
@@ -75,25 +76,33 @@ fn io_error(file: &'static str) -> impl FnOnce(io::Error) -> ExchangeError {
     move |cause| ExchangeError::Io { file, cause }
 }
 
-/// Writes a request with its domain and, where there is a spacing f, the field of it: the size is c_b f.
+/// The size that a peer is asked for: c_b times this.
+#[derive(Clone, Debug)]
+pub enum Control {
+    /// f is the same everywhere.
+    Uniform(f64),
+    /// f on a background mesh.
+    Field(Arc<Background>),
+}
+
+/// Writes a request with its domain and, where there is a spacing f, f itself: the size is c_b f.
 ///
 /// # Errors
 /// [`ExchangeError::Io`].
 pub fn write(
     folder: &Path,
     domain: &Domain,
-    spacing: Option<&dyn Spacing>,
+    spacing: Option<&Control>,
     request: &Request,
     parameters: &Parameters,
 ) -> Result<(), ExchangeError> {
     std::fs::write(folder.join(DOMAIN), domain.to_poly()).map_err(io_error(DOMAIN))?;
     let size = match spacing {
         None => None,
-        Some(uniform) if uniform.lipschitz() == 0.0 => Some(Size::Uniform {
-            uniform: request.c_b * uniform.at(domain.bounds().centre()),
+        Some(Control::Uniform(f)) => Some(Size::Uniform {
+            uniform: request.c_b * f,
         }),
-        Some(graded) => {
-            let field = Background::of(graded, domain, super::FIELD_ERROR);
+        Some(Control::Field(field)) => {
             std::fs::write(folder.join(FIELD), field.to_bytes()).map_err(io_error(FIELD))?;
             Some(Size::Field {
                 field: FIELD,

@@ -14,8 +14,10 @@ pub use list::PEERS;
 use crate::domain::Domain;
 use crate::mesh::Mesh;
 use crate::meshers::{self, Entry, MeshError, Mesher, Parameter, Parameters, Request, Trace};
-use crate::spacing::Spacing;
+use crate::spacing::{Background, Spacing};
+use exchange::Control;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Parameter of the peers that can do without a size: whether they get one.
@@ -85,11 +87,10 @@ impl Peer {
         &self,
         folder: &Path,
         domain: &Domain,
-        spacing: &dyn Spacing,
+        spacing: Option<&Control>,
         request: &Request,
     ) -> Result<(Mesh, exchange::Answer), MeshError> {
         let command = install::command(self.name).map_err(MeshError::Missing)?;
-        let spacing = self.has_size().then_some(spacing);
         exchange::write(folder, domain, spacing, request, &self.parameters).map_err(failed)?;
         let limits = process::Limits {
             time: Duration::from_secs_f64(request.budget.max_seconds.unwrap_or(3600.0)) + SET_UP,
@@ -102,6 +103,15 @@ impl Peer {
             process::Ending::Stopped(limit) => Err(MeshError::Outside(format!("{limit}; its processes were ended"))),
         }
     }
+}
+
+/// A spacing as peers get it, on the background mesh of an earlier run where there is one.
+fn control(domain: &Domain, spacing: &dyn Spacing, trace: &mut Trace) -> Control {
+    if spacing.lipschitz() == 0.0 {
+        return Control::Uniform(spacing.at(domain.bounds().centre()));
+    }
+    let sample = || Arc::new(Background::of(spacing, domain, FIELD_ERROR));
+    Control::Field(trace.background.get_or_insert_with(sample).clone())
 }
 
 fn failed(cause: impl std::fmt::Display) -> MeshError {
@@ -120,7 +130,8 @@ impl Mesher for Peer {
             .prefix("biting-peer-")
             .tempdir()
             .map_err(failed)?;
-        let (mesh, answer) = self.run(folder.path(), domain, spacing, request)?;
+        let control = self.has_size().then(|| control(domain, spacing, trace));
+        let (mesh, answer) = self.run(folder.path(), domain, control.as_ref(), request)?;
         trace.outside = Some(answer.into());
         Ok(mesh)
     }

@@ -54,7 +54,7 @@ pub(super) fn row(group: &str, domain: &str, spacing: &str, t: f64, c_b: f64, or
             triangles: None,
             threads: 1,
             poisson: None,
-        poisson_failed: None,
+            poisson_failed: None,
             timed: group == "time",
         },
         samples: Vec::new(),
