@@ -2,7 +2,7 @@
 
 use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::legend::{Entry, Key, legend};
-use super::panel::{Axis, Panel, log_span};
+use super::panel::{Axis, Panel, log_span, span};
 use super::style;
 use crate::experiment::contest::Contest;
 use crate::experiment::record::Report;
@@ -78,13 +78,13 @@ impl Figure for Poisson<'_> {
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
-        let (plots, key) = area.split_horizontally((1400 - 330) * FINE);
+        let (plots, key) = area.split_horizontally((1400 - 370) * FINE);
         let all = self.contest.all();
         for (place, (part, wanted)) in plots.split_evenly((2, 2)).iter().zip(&YIELDS).enumerate() {
             let lines: Vec<_> = all.iter().map(|k| (*k, self.line(*k, wanted.value))).collect();
             let points = || lines.iter().flat_map(|(_, line)| line.iter().copied());
             let x = Axis::log("unknowns", log_span(points().map(|point| point.0))).sparse();
-            let y = Axis::log(wanted.label, log_span(points().map(|point| point.1)));
+            let y = Axis::linear(wanted.label, span(points().map(|point| point.1)), 6);
             let title = if place == 0 { self.title } else { "" };
             let mut panel = Panel::new(part, title, x, y, 86)?;
             for (k, line) in &lines {

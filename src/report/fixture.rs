@@ -54,7 +54,6 @@ pub(super) fn row(group: &str, domain: &str, spacing: &str, t: f64, c_b: f64, or
             triangles: None,
             threads: 1,
             poisson: None,
-            poisson_failed: None,
             timed: group == "time",
         },
         samples: Vec::new(),
@@ -113,6 +112,7 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
         rss_before_bytes: 0,
         outside: None,
         poisson: None,
+        poisson_failed: None,
         certificate: certificate(bound + margin, bound),
         provenance: provenance(),
     });

@@ -231,23 +231,25 @@ fn best(contest: &Contest, by: &Yardstick) -> Option<String> {
         }
         if let Some(own) = value(ours) {
             places.push(1.0 + all.iter().filter(|(_, other)| by.sign * other > by.sign * own).count() as f64);
-            ratios.push(own / top);
+            // Nothing is a number of times nothing.
+            if top != 0.0 {
+                ratios.push(own / top);
+            }
         }
     }
-    winners.sort_by(|a, b| b.1.cmp(&a.1));
+    winners.sort_by_key(|winner| std::cmp::Reverse(winner.1));
     let names: Vec<String> = winners
         .iter()
         .map(|(name, count)| format!("{name} on {count}"))
         .collect();
-    let standing = match (median(places), median(ratios)) {
-        (Some(place), Some(ratio)) => format!(
-            " ({} is {} in the median, with {} times the best)",
+    let times = median(ratios).map_or_else(String::new, |ratio| format!(", with {} times the best", number(ratio)));
+    let standing = median(places).map_or_else(String::new, |place| {
+        format!(
+            " ({} is {} in the median{times})",
             contest.methods[ours].label,
-            ordinal(place),
-            number(ratio)
-        ),
-        _ => String::new(),
-    };
+            ordinal(place)
+        )
+    });
     (!names.is_empty()).then(|| format!("{}: {}{standing}", by.name, names.join(", ")))
 }
 

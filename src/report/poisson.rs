@@ -10,16 +10,23 @@ use crate::fem::Solution;
 /// The rows with a problem, split by what was solved where.
 pub(super) fn by_problem(rows: &[Row]) -> Vec<(String, Contest<'_>)> {
     let own: Vec<&Row> = rows.iter().filter(|row| row.cell.poisson.is_some()).collect();
-    let title = |row: &Row| {
-        let problem = row.cell.poisson.as_deref().unwrap_or_default();
-        format!("{problem} on {}, {}", row.cell.domain, row.cell.spacing)
-    };
-    let titles: Vec<String> = own.iter().map(|row| title(row)).collect();
+    let task = |row: &Row| format!("{:?} {} {}", row.cell.poisson, row.cell.domain, row.cell.spacing);
+    let tasks: Vec<String> = own.iter().map(|row| task(row)).collect();
     let contest = |wanted: &str| {
-        let rows = own.iter().zip(&titles).filter(|(_, title)| *title == wanted);
-        (wanted.to_owned(), Contest::of(rows.map(|(row, _)| *row)))
+        let rows: Vec<&Row> = own
+            .iter()
+            .zip(&tasks)
+            .filter(|(_, task)| *task == wanted)
+            .map(|(row, _)| *row)
+            .collect();
+        let problem = rows
+            .first()
+            .and_then(|row| row.cell.poisson.as_deref())
+            .unwrap_or_default();
+        let domain = rows.first().map_or("", |row| row.cell.domain.as_str());
+        (format!("{problem} on {domain}"), Contest::of(rows))
     };
-    first_seen(titles.iter().map(String::as_str))
+    first_seen(tasks.iter().map(String::as_str))
         .into_iter()
         .map(contest)
         .collect()
@@ -71,7 +78,8 @@ pub(super) fn poisson(rows: &[Row]) -> String {
         head.extend(YIELDS.iter().map(|wanted| wanted.label));
         head.push("condition");
         let lines: Vec<_> = contest.all().into_iter().map(line).collect();
-        text += &format!("### {title}\n\n{}", table(&head, &lines));
+        let spacing = contest.tasks.first().map_or("", |asked| asked.spacing.as_str());
+        text += &format!("### {title}, sizes by `{spacing}`\n\n{}", table(&head, &lines));
     }
     text
 }

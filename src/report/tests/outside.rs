@@ -196,7 +196,7 @@ fn errors_are_compared_per_unknown() {
         .flat_map(|(mesher, scale)| [1000, 4000].map(|count| solved(mesher, count, scale)))
         .collect();
     let page = poisson(&rows);
-    assert!(page.contains("### smooth on a, lfs"), "{page}");
+    assert!(page.contains("### smooth on a, sizes by `lfs`"), "{page}");
     assert!(
         starting(&page, "| biting |")[0].starts_with("| biting | 2 of 2 | 1.20 | 3.60 |"),
         "{page}"
