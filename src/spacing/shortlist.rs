@@ -318,10 +318,12 @@ mod tests {
         }
     }
 
-    /// Too near to one another for any cell of that depth to tell them apart.
+    /// Too near to one another for cells of that depth to tell them apart, and well inside each.
     #[test]
-    fn no_tree_is_deeper_than_cells_can_be_told_apart() {
-        let features = vertices((0..2 * SHORT).map(|k| 1e-20 * DVec2::from_angle(0.1 + 0.04 * k as f64)));
+    fn no_tree_is_deeper_than_coordinates_can_be_told_apart() {
+        let place =
+            |k: usize| DVec2::splat(1.0 / 3.0) + 4.0 * f64::EPSILON * DVec2::new((k % 8) as f64, (k / 8) as f64);
+        let features = vertices((0..2 * SHORT).map(place));
         let lists = Shortlists::new(&features, rect((-1.0, -1.0), (1.0, 1.0)));
         assert_eq!(leaves(&lists).iter().map(|(_, depth, _)| *depth).max(), Some(DEPTH));
     }
