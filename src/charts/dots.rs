@@ -1,7 +1,7 @@
 //! Lines of names, columns of numbers: the median of some values as a marker, their range as a line through it.
 
 use super::canvas::{Area, Drawn, FINE, Figure};
-use super::legend::{Entry, legend_row};
+use super::legend::{Entry, further_rows, legend_row};
 use super::panel::{Axis, Panel, log_span, span};
 use super::style::{self, Marker, TINY};
 use crate::experiment::summary::{median, quantile};
@@ -51,6 +51,7 @@ const MARGIN: i32 = 10;
 const LINE: u32 = 40;
 const FRAME: u32 = 130;
 const LOWEST: u32 = 600;
+const WIDTH: u32 = 1200;
 
 impl Dots {
     fn left(&self) -> i32 {
@@ -96,11 +97,13 @@ impl Dots {
 
 impl Figure for Dots {
     fn size(&self) -> (u32, u32) {
-        (1200, (FRAME + LINE * self.names.len() as u32).max(LOWEST))
+        let further = further_rows(LEAST_LEFT, WIDTH, &self.key) as u32;
+        (WIDTH, (FRAME + LINE * self.names.len() as u32).max(LOWEST) + further)
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
-        let (plots, key) = area.split_vertically(self.size().1 as i32 * FINE - 44 * FINE);
+        let (plots, key) =
+            area.split_vertically((self.size().1 as i32 - 44 - further_rows(LEAST_LEFT, WIDTH, &self.key)) * FINE);
         let names = (self.left() - MARGIN) * FINE;
         let each = (plots.dim_in_pixel().0 as i32 - names) / self.columns.len().max(1) as i32;
         let mut rest = plots;

@@ -1,7 +1,7 @@
 //! Histograms of the smallest angle of each triangle.
 
 use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
-use super::legend::{Key, legend_row};
+use super::legend::{Entry, Key, further_rows, legend_row};
 use super::panel::{Axis, Panel};
 use super::style;
 use crate::experiment::contest::Contest;
@@ -118,6 +118,10 @@ fn steps(shares: &[f64]) -> Vec<(f64, f64)> {
 /// Uniform spacing puts nearly all triangles into one degree; above this share lines are cut, so that the rest shows.
 const CUT: f64 = 30.0;
 
+/// Pixels: of the whole figure, and left of the legend.
+const WIDTH: u32 = 1200;
+const LEFT: i32 = 62;
+
 /// Small panels of equal axes, one line a series in each.
 struct Multiples {
     /// Title of each panel, and the shares of each series in it.
@@ -131,18 +135,26 @@ impl Multiples {
     fn columns(&self) -> usize {
         self.panels.len().clamp(1, 4)
     }
+
+    fn key(&self) -> Vec<Entry> {
+        let entry = |(name, colour): &(String, RGBColor)| (Key::Line(*colour), name.clone());
+        self.series.iter().map(entry).collect()
+    }
+
+    /// In pixels.
+    fn key_height(&self) -> i32 {
+        40 + further_rows(LEFT, WIDTH, &self.key())
+    }
 }
 
 impl Figure for Multiples {
     fn size(&self) -> (u32, u32) {
-        (
-            1200,
-            40 + 350 * self.panels.len().div_ceil(self.columns()).max(1) as u32,
-        )
+        let rows = self.panels.len().div_ceil(self.columns()).max(1) as u32;
+        (WIDTH, self.key_height() as u32 + 350 * rows)
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
-        let (plots, key) = area.split_vertically((self.size().1 as i32 - 40) * FINE);
+        let (plots, key) = area.split_vertically((self.size().1 as i32 - self.key_height()) * FINE);
         let (count, columns) = (self.panels.len(), self.columns());
         let all = self.panels.iter().flat_map(|(_, shares)| shares.iter().flatten());
         let most = all.copied().fold(1.0, f64::max);
@@ -162,10 +174,6 @@ impl Figure for Multiples {
                 panel.line(&steps(&shares), self.series[series].1, 3)?;
             }
         }
-        let entries = self
-            .series
-            .iter()
-            .map(|(name, colour)| (Key::Line(*colour), name.clone()));
-        legend_row(&key, 62, &entries.collect::<Vec<_>>())
+        legend_row(&key, LEFT, &self.key())
     }
 }

@@ -88,15 +88,59 @@ pub(super) fn colour_bar<DB: DrawingBackend>(
     Ok(())
 }
 
-/// Draws `entries` side by side along `area`, from `left` pixels.
+/// Room for a letter of an entry, and for what stands before its words and after them, in pixels.
+const LETTER: i32 = 10;
+const AROUND: i32 = 70;
+
+/// Where `entries` stand side by side from `left` on in `width` pixels: in which row each, and how many pixels from the left.
+fn places(left: i32, width: i32, entries: &[Entry]) -> Vec<(i32, i32)> {
+    let (mut row, mut x) = (0, left);
+    let mut places = Vec::new();
+    for (_, words) in entries {
+        let own = LETTER * words.chars().count() as i32 + AROUND;
+        if x > left && x + own > width {
+            (row, x) = (row + 1, left);
+        }
+        places.push((row, x));
+        x += own;
+    }
+    places
+}
+
+/// How many pixels more than one row `entries` need from `left` on in a figure so wide.
+pub(super) fn further_rows(left: i32, width: u32, entries: &[Entry]) -> i32 {
+    let places = places(left, width as i32, entries);
+    STEP * places.last().map_or(0, |(row, _)| *row)
+}
+
+/// Draws `entries` side by side along `area`, from `left` pixels, in as many rows as they need.
 pub(super) fn legend_row<DB: DrawingBackend>(area: &Area<DB>, left: i32, entries: &[Entry]) -> Drawn {
-    let mut x = left * FINE;
-    for entry in entries {
-        let look = style::text(SMALL, INK, HPos::Left, VPos::Center);
-        let width = area.estimate_text_size(&entry.1, &look)?.0 as i32 + 70 * FINE;
-        let (_, rest) = area.split_horizontally(x);
-        legend(&rest, 16, std::slice::from_ref(entry))?;
-        x += width;
+    let width = area.dim_in_pixel().0 as i32 / FINE;
+    for ((row, x), entry) in places(left, width, entries).into_iter().zip(entries) {
+        let (_, rest) = area.split_horizontally(x * FINE);
+        legend(&rest, 16 + STEP * row, std::slice::from_ref(entry))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_that_do_not_fit_stand_in_further_rows() {
+        // Each is 30 + 70 pixels wide.
+        let entries: Vec<Entry> = (0..5).map(|_| (Key::Line(INK), "abc".to_string())).collect();
+        assert_eq!(
+            places(50, 260, &entries),
+            [(0, 50), (0, 150), (1, 50), (1, 150), (2, 50)]
+        );
+        assert_eq!(further_rows(50, 260, &entries), 2 * STEP);
+        assert_eq!(further_rows(50, 1200, &entries), 0);
+        assert_eq!(
+            places(50, 60, &entries[..2]),
+            [(0, 50), (1, 50)],
+            "one that never fits has a row of its own"
+        );
+    }
 }
