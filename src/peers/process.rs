@@ -211,9 +211,17 @@ mod tests {
             "{ending:?}"
         );
         let child = std::fs::read_to_string(folder.path().join("child")).expect("the child's number");
-        let stat = std::fs::read_to_string(format!("/proc/{}/stat", child.trim()));
-        // Gone, or a zombie that init has yet to reap.
-        assert!(stat.as_ref().map_or(true, |stat| stat.contains(") Z ")), "{stat:?}");
+        let is_there = || {
+            let stat = std::fs::read_to_string(format!("/proc/{}/stat", child.trim()));
+            // A zombie is one that init has yet to reap.
+            stat.is_ok_and(|stat| !stat.contains(") Z "))
+        };
+        // A process that was killed needs a moment to go.
+        let start = Instant::now();
+        while is_there() {
+            assert!(start.elapsed() < Duration::from_secs(10), "the child is still there");
+            std::thread::sleep(PAUSE);
+        }
     }
 
     #[test]

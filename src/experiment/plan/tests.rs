@@ -89,8 +89,8 @@ fn groups_share_lists_of_methods() {
     one = [{ mesher = "another" }]
     [[group]]"#;
     let text = PLAN
-        .replacen("    [[group]]", shared, 1)
         .replacen("mesher = \"biting\"", "methods = \"two\"", 1)
+        .replacen("    [[group]]", shared, 1)
         .replacen("t = [0.25] }", "t = [0.25], methods = \"one\" }", 1);
     let plan = read(&text).expect("a plan");
     let count = |plan: &Plan, mesher: &str| {
