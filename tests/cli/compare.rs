@@ -25,7 +25,7 @@ case "$1 $2" in
         ;;
     decline) echo "no such domain" >&2; exit 4 ;;
     crash) echo "first" >&2; echo "out of cheese" >&2; exit 9 ;;
-    wait) echo $$ >"$KEPT"; sleep 1000 & wait ;;
+    wait) echo $$ >"$KEPT"; exec sleep 1000 ;;
     esac
     ;;
 esac
