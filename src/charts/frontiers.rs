@@ -5,7 +5,7 @@ use super::legend::{Entry, Key, legend};
 use super::panel::{Axis, Panel, log_span, span};
 use super::size::SIZE_RATIO_LFS;
 use super::style::{Marker, category};
-use crate::experiment::frontier::Family;
+use crate::experiment::frontier::{Family, Point};
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
 
@@ -42,14 +42,14 @@ impl Figure for Frontiers<'_> {
         let upward = log_span(points().map(|point| point.size));
         let x = Axis::linear("smallest angle (degrees)", across, 8);
         let mut panel = Panel::new(&left, self.title, x, Axis::log(SIZE_RATIO_LFS.label, upward), 86)?;
-        let place = |point: &crate::experiment::frontier::Point| (point.angle_deg, point.size);
+        let place = |point: &Point| (point.angle_deg, point.size);
         let mut entries: Vec<Entry> = Vec::new();
         for (index, family) in self.families.iter().enumerate() {
             let marker = self.marker(index);
             for point in &family.points {
                 panel.marker(place(point), marker.hollow())?;
             }
-            let best: Vec<(f64, f64)> = family.frontier().into_iter().map(place).collect();
+            let best: Vec<(f64, f64)> = family.frontier().iter().map(place).collect();
             panel.line(&best, marker.colour, FINE as u32 + 1)?;
             for point in best {
                 panel.marker(point, marker)?;

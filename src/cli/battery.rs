@@ -2,7 +2,7 @@
 
 use super::exit::{Failure, Outcome};
 use super::output::{say, say_aside};
-use super::sweep::say_done;
+use super::shards::{file_name, say_done};
 use crate::experiment::battery::CHUNKS;
 use crate::experiment::battery::campaign::{Campaign, Watch};
 use crate::experiment::battery::chunk::{Chunk, Tally};
@@ -63,7 +63,7 @@ pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
         say(format_args!("{}: {cases} cases in {} chunks", plan.name, parts.len()));
         return Ok(());
     }
-    let mut journal: Journal<Chunk> = super::sweep::open(&folder.join(super::sweep::file_name(CHUNKS, run.shard)))?;
+    let mut journal: Journal<Chunk> = super::sweep::open(&folder.join(file_name(CHUNKS, run.shard)))?;
     let provenance = machine::provenance();
     let is_complete = parts.iter().all(|(_, part)| journal.get(&part.key).is_some());
     let is_other = journal

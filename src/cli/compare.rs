@@ -7,16 +7,12 @@ use super::output::{say, say_aside};
 use super::sweep::{How, Place, run_cells};
 use crate::meshers::MESHERS;
 use crate::peers::{self, PEERS, install};
-use std::path::PathBuf;
 
 /// The plan that is run where none is named.
 const DEFAULT: &str = "compare";
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The experiment [default: experiments/compare.toml]
-    #[arg(value_name = "EXPERIMENT.toml")]
-    experiment: Option<PathBuf>,
     #[command(flatten)]
     place: Place,
     #[command(flatten)]
@@ -50,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             Ok(()) => {}
         }
     }
-    let plan = arguments.place.plan(arguments.experiment.as_ref(), DEFAULT)?;
+    let plan = arguments.place.plan(DEFAULT)?;
     let has = |list: &[String], name: &String| list.is_empty() || list.contains(name);
     run_cells(&plan, &arguments.place.folder(&plan), &arguments.how, None, |cell| {
         has(&arguments.only, &cell.mesher) && has(&arguments.domains, &cell.domain)

@@ -15,6 +15,7 @@ mod mesh;
 mod output;
 mod progress;
 mod report;
+mod shards;
 mod sweep;
 mod values;
 mod watch;

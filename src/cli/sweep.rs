@@ -5,6 +5,7 @@ use super::exit::{Failure, Outcome};
 use super::list::EXPERIMENTS;
 use super::output::{say, say_aside};
 use super::progress::Progress;
+use super::shards::{file_name, join, say_done};
 use super::values::bytes;
 use crate::experiment::battery::CHUNKS;
 use crate::experiment::expect::{Finding, anything_measured, findings};
@@ -34,9 +35,6 @@ const SECONDS_PER_TRIANGLE: f64 = 4e-6;
 pub struct Arguments {
     #[command(subcommand)]
     part: Option<Part>,
-    /// The experiment [default: experiments/sweep.toml]
-    #[arg(value_name = "EXPERIMENT.toml")]
-    experiment: Option<PathBuf>,
     #[command(flatten)]
     place: Place,
     #[command(flatten)]
@@ -49,21 +47,15 @@ pub struct Arguments {
 #[derive(clap::Subcommand)]
 enum Part {
     /// Join the rows of all shards, then draw charts and write the page
-    Merge(Merge),
+    Merge(Place),
 }
 
-#[derive(clap::Args)]
-struct Merge {
-    /// The experiment [default: experiments/sweep.toml]
-    #[arg(value_name = "EXPERIMENT.toml")]
-    experiment: Option<PathBuf>,
-    #[command(flatten)]
-    place: Place,
-}
-
-/// Where results go, and how much of a plan is run.
+/// Which plan, how much of it, and where its results go.
 #[derive(clap::Args)]
 pub struct Place {
+    /// The experiment [default: the one in experiments/ named as the verb]
+    #[arg(value_name = "EXPERIMENT.toml")]
+    experiment: Option<PathBuf>,
     /// Where the folders of results stand
     #[arg(long, value_name = "FOLDER", default_value = "results")]
     results: PathBuf,
@@ -91,10 +83,10 @@ pub struct How {
 }
 
 impl Place {
-    /// The plan in `experiment`, or else the one of that name among this checkout's experiments.
-    pub fn plan(&self, experiment: Option<&PathBuf>, default: &str) -> Result<Plan, Failure> {
+    /// The plan of the experiment, by default the one of that name among this checkout's.
+    pub fn plan(&self, default: &str) -> Result<Plan, Failure> {
         let default = || Path::new(EXPERIMENTS).join(format!("{default}.toml"));
-        let plan = Plan::read(&experiment.cloned().unwrap_or_else(default)).map_err(Failure::input)?;
+        let plan = Plan::read(&self.experiment.clone().unwrap_or_else(default)).map_err(Failure::input)?;
         Ok(if self.quick { plan.into_quick() } else { plan })
     }
 
@@ -108,11 +100,11 @@ impl Place {
 const DEFAULT: &str = "sweep";
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    if let Some(Part::Merge(Merge { experiment, place })) = &arguments.part {
-        let plan = place.plan(experiment.as_ref(), DEFAULT)?;
+    if let Some(Part::Merge(place)) = &arguments.part {
+        let plan = place.plan(DEFAULT)?;
         return merge(&plan, &place.folder(&plan));
     }
-    let plan = arguments.place.plan(arguments.experiment.as_ref(), DEFAULT)?;
+    let plan = arguments.place.plan(DEFAULT)?;
     let folder = arguments.place.folder(&plan);
     if plan.batteries.is_empty() {
         run_cells(&plan, &folder, &arguments.how, arguments.shard, |_| true)
@@ -158,14 +150,6 @@ pub fn run_cells(
     }
     let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
     finish(plan, folder, &rows)
-}
-
-/// Says that a shard has run.
-pub(super) fn say_done(shard: Shard) {
-    say(format_args!(
-        "shard {} of {} is done; `sweep merge` joins the shards",
-        shard.number, shard.of
-    ));
 }
 
 /// Opens a file of rows or chunks, and tells what a kill left in it.
@@ -308,15 +292,6 @@ fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -
     Ok(())
 }
 
-/// The file of a shard's rows or chunks, where `whole` is the file of all.
-pub fn file_name(whole: &str, shard: Option<Shard>) -> String {
-    let stem = whole.trim_end_matches(".jsonl");
-    match shard {
-        Some(shard) => format!("{stem}.{}-of-{}.jsonl", shard.number, shard.of),
-        None => whole.into(),
-    }
-}
-
 fn merge(plan: &Plan, folder: &Path) -> Outcome {
     if plan.batteries.is_empty() {
         let cells = plan.cells().map_err(Failure::input)?;
@@ -325,58 +300,6 @@ fn merge(plan: &Plan, folder: &Path) -> Outcome {
     } else {
         battery::finish(plan, folder, &join(folder, CHUNKS, &battery::keys(plan))?)
     }
-}
-
-/// Joins the rows, or chunks, of shards. Those of the file of all are kept where no shard has them.
-fn join<R: Record>(folder: &Path, whole: &str, keys: &[String]) -> Result<Vec<R>, Failure> {
-    let shards = shard_files(folder, whole)?;
-    if shards.is_empty() {
-        return Err(Failure::Input(format!(
-            "{}: no rows of shards there; run `sweep --shard I/N`",
-            folder.display()
-        )));
-    }
-    let mut journal: Journal<R> = Journal::open(&folder.join(whole)).map_err(Failure::input)?;
-    for file in &shards {
-        // Opening takes the lock: a shard that is still running is not merged half.
-        let shard = Journal::open(file).map_err(Failure::input)?;
-        for line in shard.lines() {
-            journal.append(line.clone()).map_err(Failure::input)?;
-        }
-        say(format_args!("{}: {} rows", file.display(), shard.lines().len()));
-    }
-    journal
-        .settle(keys.iter().map(String::as_str))
-        .map_err(Failure::input)?;
-    let missing: Vec<&String> = keys.iter().filter(|key| journal.get(key).is_none()).collect();
-    if let Some(first) = missing.first() {
-        let many = missing.len();
-        return Err(Failure::Input(format!(
-            "{many} of them have no row yet, such as {first}; run the missing shards, or `sweep` to run what is left"
-        )));
-    }
-    Ok(journal.lines().iter().map(|line| line.row.clone()).collect())
-}
-
-/// The rows of shards in a folder, by name.
-fn shard_files(folder: &Path, whole: &str) -> Result<Vec<PathBuf>, Failure> {
-    let stem = format!("{}.", whole.trim_end_matches(".jsonl"));
-    let listed = folder
-        .read_dir()
-        .map_err(|cause| Failure::Input(format!("{}: {cause}", folder.display())))?;
-    let is_shard = |path: &PathBuf| {
-        let name = path
-            .file_name()
-            .map(|name| name.to_string_lossy().into_owned())
-            .unwrap_or_default();
-        let middle = name.strip_prefix(&stem).and_then(|rest| rest.strip_suffix(".jsonl"));
-        middle
-            .and_then(|middle| middle.replace("-of-", "/").parse::<Shard>().ok())
-            .is_some()
-    };
-    let mut files: Vec<PathBuf> = listed.flatten().map(|entry| entry.path()).filter(is_shard).collect();
-    files.sort();
-    Ok(files)
 }
 
 /// Charts, page and verdict, once every cell has a row.

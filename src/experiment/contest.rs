@@ -5,7 +5,7 @@
 
 use super::measure::complete;
 use super::record::{Cell, Outcome, Report, Row};
-use super::summary::{measured, median, parameter_text, specs_by_title};
+use super::summary::{distinct, measured, median, parameter_text, specs_by_title};
 use crate::meshers::{MESHERS, Parameters};
 use crate::peers::{self, PEERS};
 
@@ -164,6 +164,18 @@ impl<'a> Contest<'a> {
     /// The rows of a method, whatever came of them.
     pub fn rows(&self, method: usize) -> impl Iterator<Item = &'a Row> {
         self.rows[method].iter().copied().flatten()
+    }
+
+    /// The most different t with which one domain and spacing stand among the tasks.
+    pub fn most_t(&self) -> usize {
+        let of = |asked: &Asked| {
+            let alike = self
+                .tasks
+                .iter()
+                .filter(|other| (&other.domain, &other.spacing) == (&asked.domain, &asked.spacing));
+            distinct(alike.map(|other| other.t)).len()
+        };
+        self.tasks.iter().map(of).max().unwrap_or(0)
     }
 
     /// Splits tasks by their spacing, titled as everywhere.

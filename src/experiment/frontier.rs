@@ -2,7 +2,7 @@
 
 use super::contest::Method;
 use super::record::{Report, Row};
-use super::summary::{first_seen, measured, median, parameter_text, quantile};
+use super::summary::{first_seen, measured, median, parameter_text, quantile, rounded, unbeaten};
 
 /// Parameters that move a method along its family's curve, or only say that it has no size to keep.
 const SWEPT: [&str; 3] = ["angle", "size", "size_rule"];
@@ -35,14 +35,8 @@ pub struct Family {
 
 impl Family {
     /// The points that no other beats in both, from few triangles to many.
-    pub fn frontier(&self) -> Vec<&Point> {
-        let mut best = f64::NEG_INFINITY;
-        let wins = |point: &&Point| {
-            let wins = point.angle_deg > best;
-            best = best.max(point.angle_deg);
-            wins
-        };
-        self.points.iter().filter(wins).collect()
+    pub fn frontier(&self) -> Vec<Point> {
+        unbeaten(&self.points, |point| point.size, |point| point.angle_deg)
     }
 
     /// The fewest triangles with a smallest angle of at least so much.
@@ -118,11 +112,6 @@ fn setting(row: &Row) -> String {
     }
 }
 
-/// Without the noise of the last digits.
-fn rounded(value: f64) -> f64 {
-    (value * 1e4).round() / 1e4
-}
-
 /// How many times the triangles of `other`'s frontier `own` has, at the angle of each point of `own`: setting and factor.
 pub fn factors<'a>(own: &'a Family, other: &'a Family) -> Vec<(&'a str, f64)> {
     let factor = |point: &'a Point| Some((point.setting.as_str(), point.size / other.fewest(point.angle_deg)?.size));
@@ -151,7 +140,8 @@ mod tests {
     #[test]
     fn what_is_beaten_in_both_is_not_on_the_frontier() {
         let made = family(&[("a", 10.0, 1.0), ("b", 9.0, 2.0), ("c", 20.0, 3.0), ("d", 20.0, 4.0)]);
-        let frontier: Vec<&str> = made.frontier().iter().map(|point| point.setting.as_str()).collect();
+        let frontier = made.frontier();
+        let frontier: Vec<&str> = frontier.iter().map(|point| point.setting.as_str()).collect();
         assert_eq!(frontier, ["a", "c"]);
         assert_eq!(made.fewest(10.0).map(|point| point.size), Some(1.0));
         assert_eq!(made.fewest(10.5).map(|point| point.size), Some(3.0));

@@ -253,18 +253,25 @@ pub struct Pair {
 
 /// The pairs no other pair beats in both smallest angle and size, from few triangles to many.
 pub fn frontier(pairs: &[Pair]) -> Vec<Pair> {
-    let mut sorted = pairs.to_vec();
-    sorted.sort_by(|a, b| {
-        let by_size = a.size_ratio_lfs.total_cmp(&b.size_ratio_lfs);
-        by_size.then(b.smallest_angle_deg.total_cmp(&a.smallest_angle_deg))
-    });
+    unbeaten(pairs, |pair| pair.size_ratio_lfs, |pair| pair.smallest_angle_deg)
+}
+
+/// Those of some meshes that no other beats in both size and angle, from small to large.
+pub fn unbeaten<T: Clone>(all: &[T], size: impl Fn(&T) -> f64, angle: impl Fn(&T) -> f64) -> Vec<T> {
+    let mut sorted = all.to_vec();
+    sorted.sort_by(|a, b| size(a).total_cmp(&size(b)).then(angle(b).total_cmp(&angle(a))));
     let mut best = f64::NEG_INFINITY;
-    sorted.retain(|pair| {
-        let wins = pair.smallest_angle_deg > best;
-        best = best.max(pair.smallest_angle_deg);
+    sorted.retain(|mesh| {
+        let wins = angle(mesh) > best;
+        best = best.max(angle(mesh));
         wins
     });
     sorted
+}
+
+/// Without the noise of the last digits, as parameters are told.
+pub fn rounded(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Meshers outside this crate, behind a process boundary: the list [`PEERS`], and how one is run.
 //!
+//! Processes, their groups and their memory are those of Unix; memory is told by Linux alone.
+//!
 //! A peer is a [`Mesher`] like any other to whoever runs it, and its mesh is judged like any other. What passes between it
 //! and this crate, and what a folder under `baselines/` must hold, is in `baselines/PROTOCOL.md`: [`exchange`] writes and
 //! reads the files, [`process`] starts the program and ends it at its limits, [`install`] knows which are there.

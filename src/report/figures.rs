@@ -6,7 +6,7 @@ use crate::charts::{self, ChartError};
 use crate::experiment::contest::{at_equal_count, at_equal_size};
 use crate::experiment::record::Row;
 use crate::experiment::series::{order_groups, time_series};
-use crate::experiment::summary::{Grid, distinct, measured};
+use crate::experiment::summary::{Grid, measured};
 use std::path::{Path, PathBuf};
 
 /// What part of the page a chart belongs to.
@@ -88,7 +88,7 @@ fn draw_rivals(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
         charts::angles_by_method(&size, &leads, &stem)?;
         let caption = "Smallest and mean angle of each mesher on each domain at equal edge length.";
         charts::domains(&size, &leads, &drawer.next(Section::Duels, "meshers-domains", caption))?;
-        if distinct(size.tasks.iter().map(|asked| asked.t)).len() > 2 {
+        if size.most_t() > 2 {
             let caption = "Medians over the tasks that all meshers measured, against t.";
             let stem = drawer.next(Section::Rivals, "meshers-against-t", caption);
             charts::methods_against_t(&size, &leads, &stem)?;

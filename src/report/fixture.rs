@@ -224,3 +224,17 @@ pub(super) fn lines(rows: &[Row]) -> String {
     let line = |row: &Row| serde_json::to_string(row).expect("rows are plain data") + "\n";
     rows.iter().map(line).collect()
 }
+
+/// A row of some method on `domain`, not measured.
+pub(super) fn asked(group: &str, domain: &str, mesher: &str, params: Value) -> Row {
+    let mut row = row(group, domain, "lfs", 0.25, 0.75, "largest");
+    row.cell.mesher = mesher.into();
+    row.cell.params = params.as_object().cloned().unwrap_or_default();
+    row.key = format!("{group}/{domain}/{mesher}/{params}");
+    row
+}
+
+/// The same measured: triangles, and smallest angle above 14.48°.
+pub(super) fn done(group: &str, domain: &str, mesher: &str, params: Value, triangles: usize, margin: f64) -> Row {
+    measured(asked(group, domain, mesher, params), 90.0, triangles, margin)
+}

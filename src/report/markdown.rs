@@ -1,5 +1,7 @@
 //! Tables and numbers as Markdown.
 
+use crate::experiment::summary::rounded;
+
 /// `value` with three digits that count, `–` where there is none.
 pub(super) fn number(value: impl Into<Option<f64>>) -> String {
     match value.into() {
@@ -25,7 +27,7 @@ pub(super) fn degrees(value: impl Into<Option<f64>>) -> String {
 
 /// A parameter such as t or c_b, without the noise of its last digits.
 pub(super) fn parameter(value: f64) -> String {
-    format!("{}", (value * 1e4).round() / 1e4)
+    rounded(value).to_string()
 }
 
 /// Text that may hold what Markdown would take for its own.

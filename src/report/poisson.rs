@@ -2,9 +2,10 @@
 
 use super::markdown::{number, table};
 use crate::charts::YIELDS;
+use crate::experiment::claims::ours;
 use crate::experiment::contest::Contest;
 use crate::experiment::record::Row;
-use crate::experiment::summary::{first_seen, median};
+use crate::experiment::summary::{first_seen, measured, median};
 use crate::fem::Solution;
 
 /// The rows with a problem, split by what was solved where.
@@ -85,7 +86,7 @@ pub(super) fn poisson(rows: &[Row]) -> String {
 }
 
 fn has_solution(row: &Row) -> bool {
-    crate::experiment::summary::measured(row).is_some_and(|report| report.poisson.is_some())
+    measured(row).is_some_and(|report| report.poisson.is_some())
 }
 
 /// Whose error per unknown is smallest, problem by problem, and how far ours is from it.
@@ -98,7 +99,7 @@ pub(super) fn poisson_finding(rows: &[Row]) -> Option<String> {
 }
 
 fn best(title: &str, contest: &Contest) -> Option<String> {
-    let ours = crate::experiment::claims::ours(contest)?;
+    let ours = ours(contest)?;
     let part = |which: usize| {
         let mut all: Vec<(usize, f64)> = contest
             .all()

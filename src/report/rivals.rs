@@ -197,7 +197,7 @@ fn method_table(contest: &Contest, time: &Contest) -> String {
 fn by_t_and_c_b(contest: &Contest) -> String {
     let ts = distinct(contest.tasks.iter().map(|asked| asked.t));
     let c_bs = distinct(contest.tasks.iter().map(|asked| asked.c_b));
-    if ts.len() * c_bs.len() < 4 {
+    if ts.len() * c_bs.len() < 4 || contest.most_t() < 2 {
         return String::new();
     }
     let leads = contest.leads();

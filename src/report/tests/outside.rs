@@ -1,6 +1,6 @@
 //! Pages with meshers outside this crate, with a frontier, and with Poisson problems, against numbers worked out by hand.
 
-use super::super::fixture::{measured, row};
+use super::super::fixture::{asked, done};
 use super::super::frontiers::{by_domain, frontier_finding, frontiers};
 use super::super::peers::{peer_findings, peers};
 use super::super::poisson::{poisson, poisson_finding};
@@ -12,19 +12,6 @@ use std::collections::BTreeMap;
 /// The lines of a page that start so.
 fn starting<'a>(page: &'a str, start: &str) -> Vec<&'a str> {
     page.lines().filter(|line| line.starts_with(start)).collect()
-}
-
-fn asked(group: &str, domain: &str, mesher: &str, params: Value) -> Row {
-    let mut row = row(group, domain, "lfs", 0.25, 0.75, "largest");
-    row.cell.mesher = mesher.into();
-    row.cell.params = params.as_object().cloned().unwrap_or_default();
-    row.key = format!("{group}/{domain}/{mesher}/{params}");
-    row
-}
-
-/// Measured, with a smallest angle so far above 14.48°.
-fn done(group: &str, domain: &str, mesher: &str, params: Value, triangles: usize, margin: f64) -> Row {
-    measured(asked(group, domain, mesher, params), 90.0, triangles, margin)
 }
 
 /// The same by a peer, which told of its run.

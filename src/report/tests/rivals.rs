@@ -1,7 +1,7 @@
 //! Comparisons against numbers worked out by hand.
 
 use super::super::duels::{YARDSTICKS, duel};
-use super::super::fixture::{lines, measured, row};
+use super::super::fixture::{asked, done, lines};
 use super::super::ranks::{rank_finding, rankings};
 use super::super::{page, write};
 use crate::experiment::claims::{meetings, samplings};
@@ -9,20 +9,6 @@ use crate::experiment::contest::{Contest, Method, at_equal_count, at_equal_size}
 use crate::experiment::record::{Outcome, Row, Try};
 use crate::quality::{Angles, Seams};
 use serde_json::{Map, Value, json};
-
-/// A row of some method on `domain`, not measured.
-fn asked(group: &str, domain: &str, mesher: &str, params: Value) -> Row {
-    let mut row = row(group, domain, "lfs", 0.25, 0.75, "largest");
-    row.cell.mesher = mesher.into();
-    row.cell.params = params.as_object().cloned().unwrap_or_default();
-    row.key = format!("{group}/{domain}/{mesher}/{params}");
-    row
-}
-
-/// The same measured: triangles, and smallest angle above 14.48°.
-fn done(group: &str, domain: &str, mesher: &str, params: Value, triangles: usize, margin: f64) -> Row {
-    measured(asked(group, domain, mesher, params), 90.0, triangles, margin)
-}
 
 fn none() -> Value {
     Value::Object(Map::new())
