@@ -99,8 +99,11 @@ pub fn methods(contest: &Contest, stem: &Path) -> Result<(), ChartError> {
     write_both(&figure, stem)
 }
 
+/// So many methods may say on one line how it came that they have no mesh.
+const MOST_WORDS: usize = 6;
+
 /// Draws smallest and mean angle of each of `methods` on each domain, over all tasks there: the median, and the range. Where
-/// a method has no mesh, the word says how that came.
+/// a method has no mesh, the word says how that came, unless there are many methods.
 ///
 /// # Errors
 /// [`ChartError`].
@@ -121,10 +124,15 @@ pub fn domains(contest: &Contest, methods: &[usize], stem: &Path) -> Result<(), 
         for (line, (_, tasks)) in lines.iter().enumerate() {
             for (place, &k) in methods.iter().enumerate() {
                 let row = tasks.first().and_then(|task| contest.row(k, *task));
+                let values = contest.values(k, tasks, |report| Some((measure.value)(report)));
+                // Of many, words would stand on one another: the page's tables tell then.
+                if values.is_empty() && methods.len() > MOST_WORDS {
+                    continue;
+                }
                 dots.push(Dot {
                     line,
                     shift: apart(place, methods.len()),
-                    values: contest.values(k, tasks, |report| Some((measure.value)(report))),
+                    values,
                     marker: style::method(&contest.methods[k]),
                     missing: ending(row),
                 });
