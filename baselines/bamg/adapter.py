@@ -16,7 +16,7 @@ import numpy  # noqa: E402
 import start  # noqa: E402
 
 PROGRAM = "FreeFem++"
-THETAMAX = 1.0  # degrees: where segments turn by more there is a corner, where by less BAMG rounds it
+THETAMAX = 0.001  # degrees: where segments turn by more there is a corner, where by less BAMG rounds it
 RATIO = 0.0  # no smoothing of the metric: the sizes are as they shall be
 ROOM = 3.0  # adaptmesh is given room for so many times the points expected, and clears all of it in every pass
 

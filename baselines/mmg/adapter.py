@@ -12,6 +12,7 @@ import start  # noqa: E402
 
 SAMPLES = 1000  # of the size along a segment
 OFF = -1.0  # for a gradation: the sizes are as they shall be
+ROUNDING = 1e-14  # of the domain's box: by how much mmg, which works in a unit box, may return a required vertex off its place
 
 
 def two_sided(triangles, edges):
@@ -63,16 +64,25 @@ def remesh(points, triangles, edges, inner, corners, size):
     return mesh.get_vertices(), mesh.get_triangles(), mesh.get_edges()
 
 
+def put_back(points, required):
+    """Undoes the rounding of required vertices, which are the first points; one that moved by more stays where mmg put it."""
+    allowed = ROUNDING * numpy.ptp(required, axis=0).max()
+    off = numpy.abs(points[: len(required)] - required).max(axis=1)
+    points[: len(required)][off <= allowed] = required[off <= allowed]
+
+
 def mesh(domain, size, request):
     """Passes of remeshing, each to the sizes at the points that the one before left."""
     if size is None:
         raise protocol.Declined("mmg needs a size: it has no refinement by angles alone")
     points, triangles, edges, inner, count = set_up(domain, size)
     corners = numpy.arange(count, dtype=numpy.int32)  # which stay the first points of every pass
+    required = points[:count].copy()
     counts = {"start_triangles": len(triangles)}
     yield
     for _ in range(request["parameters"]["passes"]):
         points, triangles, edges = remesh(points, triangles, edges, inner, corners, size)
+        put_back(points, required)
         inner = two_sided(triangles, edges)
     yield points, triangles, counts
 

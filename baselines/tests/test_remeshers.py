@@ -5,17 +5,21 @@ import shutil
 import unittest
 
 import numpy
-from support import PLATE, SQUARE, Peer, measure, protocol
+from support import PLATE, SQUARE, Domain, Peer, measure, protocol
 from test_adapters import RING, Contract, from_the_hole
 
-# a hole of 64 corners, which those who take a polygon for a curve round
-ANGLES = 2.0 * numpy.pi * numpy.arange(64) / 64
-ROUND = protocol.Poly(
-    SQUARE + list(zip(0.5 + 0.2 * numpy.cos(ANGLES), 0.5 + 0.2 * numpy.sin(ANGLES))),
-    RING + [(4 + k, 4 + (k + 1) % 64) for k in range(64)],
-    [(0.5, 0.5)],
-)
-ROUND_AREA = 1.0 - 32 * 0.2**2 * float(numpy.sin(2.0 * numpy.pi / 64))
+
+
+def plate_with_round_hole(corners, moved=0.0):
+    """The square with a hole of many corners, which those who take a polygon for a curve round, and its area."""
+    angles = 2.0 * numpy.pi * numpy.arange(corners) / corners
+    hole = zip(0.5 + 0.2 * numpy.cos(angles), 0.5 + 0.2 * numpy.sin(angles))
+    ring = [(4 + k, 4 + (k + 1) % corners) for k in range(corners)]
+    poly = protocol.Poly(numpy.array([*SQUARE, *hole]) + moved, RING + ring, [(0.5 + moved, 0.5 + moved)])
+    return Domain(poly, 1.0 - corners / 2 * 0.2**2 * float(numpy.sin(2.0 * numpy.pi / corners)))
+
+
+ROUND = plate_with_round_hole(64)
 
 
 class KeepsThePolygon:
@@ -26,12 +30,21 @@ class KeepsThePolygon:
 
     def test_a_polygon_is_divided_and_not_rounded(self):
         for size in (0.1, 0.01):  # sides are 0.0196 long
-            run = self.peer.run(ROUND, {"uniform": size}, self.parameters)
-            self.assertEqual(run.status, 0, run.said)
-            found = measure(run.points, run.triangles, None)
-            self.assertAlmostEqual(found.area, ROUND_AREA, places=10)
-            distances = numpy.hypot(*(run.points[:, None, :] - ROUND.points).T)
-            self.assertEqual(distances.min(axis=1).max(), 0.0)
+            self.check(ROUND, size)
+
+    def test_nor_where_it_turns_by_half_a_degree(self):
+        self.check(plate_with_round_hole(720), 0.05)
+
+    def test_nor_far_from_the_origin(self):
+        self.check(plate_with_round_hole(64, moved=189.85), 0.05)
+
+    def check(self, domain, size):
+        run = self.peer.run(domain.poly, {"uniform": size}, self.parameters)
+        self.assertEqual(run.status, 0, run.said)
+        found = measure(run.points, run.triangles, None)
+        self.assertAlmostEqual(found.area, domain.area, places=10)
+        distances = [numpy.hypot(*(run.points - vertex).T).min() for vertex in domain.poly.points]
+        self.assertEqual(max(distances), 0.0)
 
 
 class Mmg(KeepsThePolygon, Contract, unittest.TestCase):
@@ -75,10 +88,10 @@ class Pymeshlab(Contract, unittest.TestCase):
         self.assertAlmostEqual(measure(run.points, run.triangles, None).area, 1.0, places=12)
 
     def test_a_polygon_loses_corners(self):
-        run = self.peer.run(ROUND, {"uniform": 0.1}, self.parameters)
+        run = self.peer.run(ROUND.poly, {"uniform": 0.1}, self.parameters)
         found = measure(run.points, run.triangles, None)
         self.assertGreater(found.smallest_area, 0.0)
-        self.assertGreater(abs(found.area - ROUND_AREA), 1e-4)
+        self.assertGreater(abs(found.area - ROUND.area), 1e-4)
 
 
 @unittest.skipUnless(importlib.util.find_spec("pythoncdt"), "pythoncdt is not installed")
