@@ -13,10 +13,12 @@ mod budget;
 pub mod delaunay_refinement;
 pub mod quadtree_mis;
 mod sizing;
+mod snapshot;
 
 pub use budget::Budget;
 use budget::Monitor;
 pub(crate) use budget::resident_bytes;
+pub use snapshot::{Bite, Reason, Waiting};
 
 /// Parameters of a mesher by name.
 pub type Parameters = serde_json::Map<String, serde_json::Value>;
@@ -252,6 +254,8 @@ pub struct Trace {
     /// The spacing on a background mesh, from an earlier run on the same domain and spacing or for the next one: a mesher
     /// that needs it makes it where it is not there.
     pub background: Option<Arc<Background>>,
+    /// Every bite in order, for figures and replays: noted only where there is a list, as [`Trace::watching`] makes it.
+    pub bites: Option<Vec<Bite>>,
 }
 
 /// A run in a process of its own, as the program tells it.
@@ -272,6 +276,14 @@ pub struct Outside {
 }
 
 impl Trace {
+    /// One that notes every bite.
+    pub fn watching() -> Self {
+        Self {
+            bites: Some(Vec::new()),
+            ..Self::default()
+        }
+    }
+
     /// Runs `work` as the step `name`.
     pub fn step<T>(&mut self, name: &'static str, work: impl FnOnce() -> T) -> T {
         let start = Instant::now();

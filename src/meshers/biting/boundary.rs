@@ -4,7 +4,7 @@ use super::front::Front;
 use crate::geometry::near::{Disc, Near};
 use crate::geometry::{DVec2, tolerance};
 use crate::mesh::Piece;
-use crate::meshers::MeshError;
+use crate::meshers::{MeshError, Reason};
 use std::collections::VecDeque;
 
 /// Bites all input vertices that are not cut off.
@@ -14,7 +14,9 @@ pub(super) fn vertex_protection(front: &mut Front) -> Result<(), MeshError> {
         .filter(|(v, _)| !front.cuts.is_cut(*v))
         .try_for_each(|(_, &centre)| {
             let radius = front.radius_at(centre)?;
-            front.bite_boundary(Disc { centre, radius }).map(|_| ())
+            front
+                .bite_boundary(Disc { centre, radius }, Reason::InputVertex)
+                .map(|_| ())
         })
 }
 
@@ -28,13 +30,14 @@ fn corner_protection(front: &mut Front) -> Result<Vec<Vec<(f64, u32)>>, MeshErro
             let centre = cuts.point(domain, s, v);
             let radius = front.radius_at(centre)?;
             let along = domain.vertices()[segment.a].distance(centre);
-            placed.push((along, front.bite_boundary(Disc { centre, radius })?));
+            let disc = Disc { centre, radius };
+            placed.push((along, front.bite_boundary(disc, Reason::CutCorner)?));
         }
     }
     // Points between the segments of a corner are on none.
     for &centre in &cuts.between {
         let radius = front.radius_at(centre)?;
-        front.bite_boundary(Disc { centre, radius })?;
+        front.bite_boundary(Disc { centre, radius }, Reason::CutCorner)?;
     }
     Ok(placed)
 }
@@ -52,8 +55,8 @@ pub(super) fn edge_protection(front: &mut Front) -> Result<Vec<Piece>, MeshError
         let Some((gap, circle)) = gap.trimmed(front)? else {
             continue;
         };
-        let (position, disc) = gap.next_bite(front, circle, &mut gaps)?;
-        cuts[gap.segment].push((gap.along_segment(position), front.bite_boundary(disc)?));
+        let (position, disc, reason) = gap.next_bite(front, circle, &mut gaps)?;
+        cuts[gap.segment].push((gap.along_segment(position), front.bite_boundary(disc, reason)?));
         gaps.extend(gap.without(position, disc.radius));
     }
     Ok(Piece::chains(front.domain, cuts))
@@ -152,25 +155,35 @@ impl Gap {
         Ok(None)
     }
 
-    /// Step 4: the next bite of an uncovered gap, as its position and circle, given the circle at q₁.
+    /// Step 4: the next bite of an uncovered gap, as its position, circle and reason, given the circle at q₁.
     ///
     /// Let q₂ be the next covered point of the segment. Where the circle at q₁ does not reach it, bite at q₁; else,
     /// where the circle at q₂ does not reach q₁, bite at q₂; else bite at the middle of q₁ q₂. If the circle that
     /// covers q₂ ends within the gap, the part behind it is queued as a gap of its own.
-    fn next_bite(&self, front: &Front, at_low: Disc, gaps: &mut VecDeque<Gap>) -> Result<(f64, Disc), MeshError> {
+    fn next_bite(
+        &self,
+        front: &Front,
+        at_low: Disc,
+        gaps: &mut VecDeque<Gap>,
+    ) -> Result<(f64, Disc, Reason), MeshError> {
         let (far, behind) = self.far_side(front, at_low);
+        let progressive = Reason::Progressive { segment: self.segment };
         if far - self.low > at_low.radius {
-            return Ok((self.low, at_low));
+            return Ok((self.low, at_low, progressive));
         }
         if behind < self.high {
             gaps.push_back(Self { low: behind, ..*self });
         }
         let at_far = self.circle_at(front, far)?;
         if far - self.low > at_far.radius {
-            return Ok((far, at_far));
+            return Ok((far, at_far, progressive));
         }
         let middle = 0.5 * (self.low + far);
-        Ok((middle, self.circle_at(front, middle)?))
+        let reason = Reason::Middle {
+            segment: self.segment,
+            between: [self.low, far].map(|position| self.at(position)),
+        };
+        Ok((middle, self.circle_at(front, middle)?, reason))
     }
 
     /// q₂, the next covered point behind the low end as far as the circle there can tell, and where the circle that

@@ -13,12 +13,12 @@
 
 use super::corners::Cuts;
 use super::notches::Notches;
-use super::order::{Order, Queue, Ticket};
+use super::order::{Order, Queue, RANK_STEP, Ticket};
 use crate::domain::Domain;
 use crate::geometry::near::{Disc, DiscGrid, Near, circle_intersections};
 use crate::geometry::{DVec2, tolerance};
 use crate::meshers::sizing::Sizing;
-use crate::meshers::{MeshError, Monitor, Request};
+use crate::meshers::{Bite, MeshError, Monitor, Reason, Request, Waiting};
 use crate::spacing::Spacing;
 
 /// A point where the arcs of two biting circles meet.
@@ -86,6 +86,8 @@ pub(super) struct Front<'a> {
     /// The two circles that the vertex taken last lies on.
     parents: [u32; 2],
     monitor: Monitor,
+    /// Where bites are noted, if they are.
+    pub log: Option<Vec<Bite>>,
 }
 
 impl<'a> Front<'a> {
@@ -115,6 +117,7 @@ impl<'a> Front<'a> {
             near: Vec::new(),
             parents: [0; 2],
             monitor: Monitor::new(&request.budget),
+            log: None,
         }
     }
 
@@ -125,9 +128,9 @@ impl<'a> Front<'a> {
 
     /// Bites at a point of the input boundary and returns the number of the mesh vertex. The arcs follow in
     /// [`Front::open`], once the boundary is covered.
-    pub fn bite_boundary(&mut self, disc: Disc) -> Result<u32, MeshError> {
+    pub fn bite_boundary(&mut self, disc: Disc, reason: Reason) -> Result<u32, MeshError> {
         // Vertices cut off are mesh vertices too, and get no circle.
-        Ok(self.insert(disc)? + self.cuts.count as u32)
+        Ok(self.insert(disc, reason)? + self.cuts.count as u32)
     }
 
     /// The mesh vertices: the input's, then all other centres in the order they were bitten.
@@ -195,15 +198,18 @@ impl<'a> Front<'a> {
         }
         let mut near = std::mem::take(&mut self.near);
         self.bitten.meeting(disc.centre, disc.radius, &mut near);
-        let id = self.insert(disc)?;
+        let id = self.insert(disc, Reason::FrontVertex)?;
         self.remove_vertices(disc, id, &near);
         let result = self.add_vertices(disc, id, &near, |_| true);
         self.near = near;
         result
     }
 
-    fn insert(&mut self, disc: Disc) -> Result<u32, MeshError> {
+    fn insert(&mut self, disc: Disc, reason: Reason) -> Result<u32, MeshError> {
         self.monitor.placed(self.bitten.len() + 1, disc.centre, disc.radius)?;
+        if let Some(log) = &mut self.log {
+            log.push(Bite::new(disc.centre, disc.radius, reason));
+        }
         self.first_vertex.push(NONE);
         self.beside_notch.push(self.notches.are_near(disc));
         Ok(self.bitten.insert(disc))
@@ -223,6 +229,8 @@ impl<'a> Front<'a> {
                 if slot.point.distance_squared(disc.centre) < inside && self.sees(id, slot.point) {
                     if slot.serial == NONE {
                         self.free_slots.push(index);
+                    } else if let Some(bite) = self.log.as_mut().and_then(|log| log.last_mut()) {
+                        bite.bite_away(slot.serial, slot.point);
                     }
                     self.slots[index as usize].serial = NONE;
                     match before {
@@ -298,8 +306,17 @@ impl<'a> Front<'a> {
             .iter()
             .for_each(|&disc| self.first_vertex[disc as usize] = index);
         let (spacing, point) = (self.radii.spacing, vertex.point);
-        self.queue
+        let rank = self
+            .queue
             .push(Ticket { serial, slot: index }, vertex, || spacing.at(point));
+        if let Some(bite) = self.log.as_mut().and_then(|log| log.last_mut()) {
+            bite.appeared.push(Waiting {
+                serial,
+                point,
+                circles: vertex.discs,
+                rank: rank as f64 * RANK_STEP,
+            });
+        }
         Ok(())
     }
 

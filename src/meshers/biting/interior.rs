@@ -6,7 +6,7 @@ use crate::meshers::MeshError;
 
 /// Bites at front vertices, in the order of bites, until the front is empty, and returns the mesh vertices: the
 /// input's, then all other centres in the order they were bitten, boundary first.
-pub(super) fn interior_biting(mut front: Front) -> Result<Vec<DVec2>, MeshError> {
+pub(super) fn interior_biting(front: &mut Front) -> Result<Vec<DVec2>, MeshError> {
     front.open()?;
     while let Some(vertex) = front.next_vertex() {
         front.bite(vertex)?;

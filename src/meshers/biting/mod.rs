@@ -196,9 +196,11 @@ impl Biting {
         };
         let spacing: &dyn Spacing = if capped.is_empty() { spacing } else { &capped };
         let mut front = front::Front::new(domain, &cuts, &notches, spacing, self.order, request);
+        front.log = trace.bites.take();
         trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
         let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;
-        let centres = trace.step("interior_biting", || interior::interior_biting(front))?;
+        let centres = trace.step("interior_biting", || interior::interior_biting(&mut front))?;
+        trace.bites = front.log;
         trace.count("bites", centres.len() as f64);
         Ok(Bitten { centres, pieces })
     }

@@ -71,13 +71,19 @@ impl Queue {
         }
     }
 
-    /// Adds a front vertex; `size` gives the radius its biting circle would have, asked for only where it ranks.
-    pub fn push(&mut self, ticket: Ticket, vertex: &FrontVertex, size: impl FnOnce() -> f64) {
+    /// Adds a front vertex and returns its rank, 0 where the order has none; `size` gives the radius its biting circle would
+    /// have, asked for only where it ranks.
+    pub fn push(&mut self, ticket: Ticket, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
         match self {
             Self::Fifo(queue) => queue.push_back(ticket),
             Self::Lifo(stack) | Self::Random(stack, _) => stack.push(ticket),
-            Self::Ranked(order, heap) => heap.push(Reverse((rank(*order, vertex, size), ticket))),
+            Self::Ranked(order, heap) => {
+                let rank = rank(*order, vertex, size);
+                heap.push(Reverse((rank, ticket)));
+                return rank;
+            }
         }
+        0
     }
 
     pub fn pop(&mut self) -> Option<Ticket> {
@@ -92,6 +98,9 @@ impl Queue {
     }
 }
 
+/// Ranks are whole numbers of these.
+pub(super) const RANK_STEP: f64 = 1.0 / (1 << 30) as f64;
+
 /// The smaller, the earlier. Ranks are rounded to 2⁻³⁰, so that where spacing is uniform rounding noise does not decide
 /// and vertices of equal rank are bitten first come, first bitten.
 fn rank(order: Order, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
@@ -103,5 +112,5 @@ fn rank(order: Order, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
         Order::Largest => -size().log2(),
         Order::Fifo | Order::Lifo | Order::Random => 0.0,
     };
-    (value * f64::from(1 << 30)).round() as i64
+    (value / RANK_STEP).round() as i64
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::domain::gallery;
-use crate::meshers::{Budget, Parameters};
+use crate::meshers::{Budget, Parameters, Reason, Waiting};
 use crate::quality::{Bounds, judge};
 use crate::spacing::{Options, build};
 use proptest::prelude::*;
@@ -286,4 +286,51 @@ fn found_cases_keep_their_bounds() {
     keeps_its_bounds("random-pslg:kind=fan,seed=4", "lfs", 0.25, 0.75);
     // Circles of a segment's ends that meet low, where c_b + t is above 1.
     keeps_its_bounds("l-shape", "lfs", 0.25, 1.0);
+}
+
+#[test]
+fn every_bite_is_noted_with_what_it_did_to_the_front() {
+    let domain = gallery::domain("plate-hole")
+        .expect("a gallery name")
+        .expect("a valid domain");
+    let spacing = build("lfs", &domain, &Options::with_alpha(0.5)).expect("a spacing");
+    for order in Order::ALL {
+        let mut trace = Trace::watching();
+        let bitten = with(order)
+            .bite(&domain, &*spacing.function, &request(0.5), &mut trace)
+            .expect("a bitten plate");
+        let bites = trace.bites.expect("bites were to be noted");
+        assert_eq!(bites.iter().map(|bite| bite.centre).collect::<Vec<_>>(), bitten.centres);
+        let mut waiting: std::collections::BTreeMap<u32, Waiting> = Default::default();
+        for bite in &bites {
+            match bite.reason {
+                Reason::Middle { between: [q1, q2], .. } => {
+                    assert!(bite.centre.distance(0.5 * (q1 + q2)) < 1e-15, "{bite:?}");
+                }
+                Reason::FrontVertex => {
+                    let chosen = waiting[&bite.gone[0]];
+                    assert_eq!(chosen.point, bite.centre);
+                    let place = |vertex: &Waiting| (vertex.rank, vertex.serial);
+                    if !matches!(order, Order::Lifo | Order::Random) {
+                        assert!(
+                            waiting.values().all(|other| place(&chosen) <= place(other)),
+                            "{order:?}"
+                        );
+                    }
+                }
+                _ => assert!(bite.gone.is_empty()),
+            }
+            for serial in &bite.gone {
+                let bitten_away = waiting.remove(serial).expect("it was there, and is gone once");
+                assert!(bitten_away.point.distance(bite.centre) < bite.radius);
+            }
+            for vertex in &bite.appeared {
+                for circle in vertex.circles.map(|circle| &bites[circle as usize]) {
+                    assert!((vertex.point.distance(circle.centre) / circle.radius - 1.0).abs() < 1e-9);
+                }
+                assert!(waiting.insert(vertex.serial, *vertex).is_none());
+            }
+        }
+        assert!(waiting.is_empty(), "{order:?}: {} are left", waiting.len());
+    }
 }

@@ -1,0 +1,75 @@
+//! What a figure or a replay wants to know of every bite.
+
+use crate::geometry::DVec2;
+
+/// One bite: a circle removed from what is left of the domain, and what that did to the front.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bite {
+    /// Centre of the biting circle, a mesh vertex.
+    pub centre: DVec2,
+    /// Its radius, c_b f at the centre.
+    pub radius: f64,
+    /// Why it was bitten there.
+    pub reason: Reason,
+    /// Front vertices that it made. Those between boundary circles come with the last of these, when the front opens.
+    pub appeared: Vec<Waiting>,
+    /// Serial numbers of the front vertices that it bit away; where its centre was one, that is the first.
+    pub gone: Vec<u32>,
+}
+
+impl Bite {
+    pub(super) fn new(centre: DVec2, radius: f64, reason: Reason) -> Self {
+        Self {
+            centre,
+            radius,
+            reason,
+            appeared: Vec::new(),
+            gone: Vec::new(),
+        }
+    }
+
+    /// Notes that a front vertex is gone.
+    pub(super) fn bite_away(&mut self, serial: u32, point: DVec2) {
+        self.gone.push(serial);
+        if point == self.centre {
+            let last = self.gone.len() - 1;
+            self.gone.swap(0, last);
+        }
+    }
+}
+
+/// Why a circle is bitten, with the paper's labels of §6.2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reason {
+    /// An input vertex (vertex protection).
+    InputVertex,
+    /// A corner is cut off there.
+    CutCorner,
+    /// Label B(p₁): where an earlier circle leaves the segment with this number (edge protection).
+    Progressive {
+        /// Which segment.
+        segment: usize,
+    },
+    /// Label M(p₁, p₂): in the middle of q₁ and q₂, where two earlier circles leave the segment with this number.
+    Middle {
+        /// Which segment.
+        segment: usize,
+        /// q₁ and q₂.
+        between: [DVec2; 2],
+    },
+    /// A front vertex in its turn (interior biting); the first of [`Bite::gone`].
+    FrontVertex,
+}
+
+/// A front vertex that waits for its turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Waiting {
+    /// Its number: front vertices are counted as they appear.
+    pub serial: u32,
+    /// Where it is.
+    pub point: DVec2,
+    /// The two bites on whose circles it lies.
+    pub circles: [u32; 2],
+    /// The smaller, the earlier; equal ranks by serial number. 0 where the order has none.
+    pub rank: f64,
+}
