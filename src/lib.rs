@@ -16,6 +16,7 @@
 //! | [`fem`] | what quality is for: a Poisson problem on the mesh, its error, iterations and eigenvalues |
 //! | [`experiment`] | plans (TOML), the runner, records (JSON lines) |
 //! | [`charts`], [`report`] | figures by plotters, pages from rows alone |
+//! | [`figures`] | the paper's figures from real runs, and the replay |
 //! | [`cli`] | one file per verb |
 //!
 //! # Notation
@@ -33,6 +34,7 @@ pub mod delaunay;
 pub mod domain;
 pub mod experiment;
 pub mod fem;
+pub mod figures;
 pub mod files;
 pub mod geometry;
 pub mod mesh;

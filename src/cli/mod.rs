@@ -10,6 +10,7 @@ mod battery;
 mod check;
 mod compare;
 mod exit;
+mod figures;
 mod list;
 mod mesh;
 mod output;
@@ -38,6 +39,8 @@ enum Verb {
     Check(check::Arguments),
     /// Set our meshers beside those outside this crate
     Compare(compare::Arguments),
+    /// Draw the paper's figures from real runs, or write a replay of one
+    Figures(figures::Arguments),
     /// Make charts and pages again from the rows alone
     Report(report::Arguments),
     /// List domains, meshers with parameters, spacings, peers and experiments
@@ -54,6 +57,7 @@ pub fn main() -> ExitCode {
         Verb::Mesh(arguments) => mesh::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
+        Verb::Figures(arguments) => figures::run(&arguments),
         Verb::Report(arguments) => report::run(&arguments),
         Verb::List => list::run(),
         Verb::RunCases => battery::work(),
