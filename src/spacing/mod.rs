@@ -28,6 +28,7 @@ mod limit_tests;
 mod limited;
 mod parse;
 mod program;
+mod rule;
 mod samples;
 mod shortlist;
 #[cfg(test)]
@@ -43,6 +44,7 @@ pub use integral::{Integral, estimate_triangles, integrate};
 pub use lfs::{Lfs, Narrowest};
 pub use limited::Limited;
 pub use parse::{KINDS, Spec, spec_for_size};
+pub use rule::Rule;
 pub use uniform::Uniform;
 
 /// The t = α c_b below which a spacing counts as flat: where biting must come down to a smaller size beside a corner, it

@@ -57,11 +57,14 @@ mod capped;
 mod corners;
 mod fan;
 mod front;
+mod gap;
 mod interior;
 mod notches;
 mod order;
+mod rule;
 #[cfg(test)]
 mod tests;
+mod watch;
 
 pub use order::Order;
 
@@ -70,7 +73,7 @@ use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::mesh::{Mesh, Piece};
-use crate::spacing::Spacing;
+use crate::spacing::{Rule, Spacing};
 use corners::Cuts;
 use notches::Notches;
 use serde::{Deserialize, Serialize};
@@ -102,6 +105,8 @@ pub enum HeadOn {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Biting {
+    /// Who bites whom. The default is the paper's.
+    pub rule: Rule,
     /// The order of bites. The paper leaves it open; the default is what `sweep` found best.
     pub order: Order,
     /// What is done about input angles under 90°, which the paper excludes.
@@ -117,6 +122,12 @@ pub(super) const ENTRY: Entry = Entry {
     name: "biting",
     summary: "advancing front that packs circles (Li, Teng, Üngör)",
     parameters: &[
+        Parameter {
+            name: "rule",
+            values: "earlier, later",
+            default: "earlier",
+            help: "whose spacing sets the distance that two points keep: that of the one bitten first (§5.1), or of the other",
+        },
         Parameter {
             name: "order",
             values: "fifo, lifo, sharpest, flattest, equilateral, smallest, largest, random",
@@ -195,7 +206,7 @@ impl Biting {
             Corners::Cut => Notches::new(domain),
         };
         let spacing: &dyn Spacing = if capped.is_empty() { spacing } else { &capped };
-        let mut front = front::Front::new(domain, &cuts, &notches, spacing, self.order, request);
+        let mut front = front::Front::new(domain, &cuts, &notches, spacing, self, request);
         front.log = trace.bites.take();
         trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
         let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;

@@ -1,0 +1,179 @@
+//! Where a line leaves what a point has eaten by the rule of the later point.
+//!
+//! # Idea
+//! Along a line, at the signed distance w from the foot of a point x that lies `away` from it, x has eaten where
+//! F(w) = √(away² + w²) − share · g(w) is negative. With g t-Lipschitz, the slope of F is within t of w / √(away² + w²). So
+//! from w₀ = t away / √(1 − t²) on, F rises, and up to −w₀ it falls: one crossing on either side at most, found between two
+//! points of different sign. In between F may wiggle as g does; there its slope is at most 2t, and an interval whose two ends
+//! are farther from 0 than that can bridge has no crossing. All others are halved, so that no crossing is missed.
+
+use crate::geometry::DVec2;
+use crate::geometry::tolerance::EATEN;
+use crate::meshers::MeshError;
+use crate::meshers::sizing::Sizing;
+
+/// Most evaluations of g for a line: beyond that g follows the distance so closely that nothing is decided.
+const MOST_EVALUATIONS: usize = 20_000;
+/// Most steps to a crossing that is known to be one. Every third halves the interval.
+const STEPS: usize = 200;
+
+/// A line past a point.
+#[derive(Clone, Copy)]
+pub(super) struct Watch<'a> {
+    pub sizing: Sizing<'a>,
+    /// The foot of the point on the line.
+    pub foot: DVec2,
+    /// The line's direction, a unit vector.
+    pub direction: DVec2,
+    /// How far the point is from the line.
+    pub away: f64,
+    /// By how much g is taken smaller.
+    pub share: f64,
+    /// About what g is here, to begin with.
+    pub guess: f64,
+}
+
+/// Where F changes sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Crossing {
+    /// Signed distance from the foot.
+    pub at: f64,
+    /// g there.
+    pub radius: f64,
+    /// Whether what is eaten is left in the line's direction.
+    pub rises: bool,
+}
+
+/// F at a point of the line, with g.
+#[derive(Clone, Copy)]
+struct Sample {
+    at: f64,
+    excess: f64,
+    radius: f64,
+}
+
+impl Watch<'_> {
+    /// All crossings in [from, to] by their order along the line.
+    pub fn crossings(&self, [from, to]: [f64; 2]) -> Result<Vec<Crossing>, MeshError> {
+        let mut found = Vec::new();
+        if from >= to {
+            return Ok(found);
+        }
+        let t = self.sizing.t();
+        let turn = t * self.away / (1.0 - t * t).sqrt();
+        let mut ends = vec![from];
+        ends.extend([-turn, turn].into_iter().filter(|w| from < *w && *w < to));
+        ends.push(to);
+        let samples: Vec<Sample> = ends.iter().map(|w| self.sample(*w)).collect::<Result<_, _>>()?;
+        for pair in samples.windows(2) {
+            let [first, last] = [pair[0], pair[1]];
+            if -turn < last.at && first.at < turn {
+                self.halve([first, last], &mut 0, &mut found)?;
+            } else if let Some(crossing) = self.only_crossing([first, last])? {
+                found.push(crossing);
+            }
+        }
+        Ok(found)
+    }
+
+    /// The first crossing in [from, to] that leaves what is eaten.
+    pub fn exit(&self, range: [f64; 2]) -> Result<Option<Crossing>, MeshError> {
+        Ok(self.crossings(range)?.into_iter().find(|crossing| crossing.rises))
+    }
+
+    fn sample(&self, w: f64) -> Result<Sample, MeshError> {
+        let x = self.foot + self.direction * w;
+        let radius = self.sizing.unchecked(x);
+        if !radius.is_finite() {
+            return Err(self.sizing.at(x).err().unwrap_or_else(|| self.undecided()));
+        }
+        Ok(Sample {
+            at: w,
+            excess: self.away.hypot(w) - self.share * radius,
+            radius,
+        })
+    }
+
+    fn undecided(&self) -> MeshError {
+        MeshError::Declined(format!(
+            "near ({}, {}) the spacing follows the distance to a vertex so closely that what is covered cannot be told \
+             from what is not; lower --t, or use `--param rule=earlier`",
+            self.foot.x, self.foot.y
+        ))
+    }
+
+    /// The crossing between two samples where F is monotone, if there is one.
+    fn only_crossing(&self, [mut low, mut high]: [Sample; 2]) -> Result<Option<Crossing>, MeshError> {
+        let rises = low.excess < high.excess;
+        if (low.excess < 0.0) == (high.excess < 0.0) {
+            return Ok(None);
+        }
+        let across = |radius: f64| ((self.share * radius).powi(2) - self.away * self.away).max(0.0).sqrt();
+        let side = if rises { 1.0 } else { -1.0 };
+        // A fixed point of w ↦ √((share · g(w))² − away²) to begin with: for constant g it is the crossing itself.
+        let mut next = side * across(self.guess);
+        let mut last = low;
+        for step in 0..STEPS {
+            let middle = 0.5 * (low.at + high.at);
+            if middle <= low.at || middle >= high.at {
+                break;
+            }
+            if !(low.at < next && next < high.at) || step % 3 == 2 {
+                next = middle;
+            }
+            let sample = self.sample(next)?;
+            if (sample.excess < 0.0) == (low.excess < 0.0) {
+                low = sample;
+            } else {
+                high = sample;
+            }
+            if sample.excess.abs() <= EATEN * sample.radius {
+                break;
+            }
+            next = match step {
+                0 => side * across(sample.radius),
+                _ => sample.at - sample.excess * (sample.at - last.at) / (sample.excess - last.excess),
+            };
+            last = sample;
+        }
+        let nearest = if high.excess.abs() < low.excess.abs() { high } else { low };
+        Ok(Some(Crossing {
+            at: nearest.at,
+            radius: nearest.radius,
+            rises,
+        }))
+    }
+
+    /// All crossings between two samples where the slope of F is at most 2t.
+    fn halve(
+        &self,
+        [low, high]: [Sample; 2],
+        evaluations: &mut usize,
+        found: &mut Vec<Crossing>,
+    ) -> Result<(), MeshError> {
+        let changes = (low.excess < 0.0) != (high.excess < 0.0);
+        let width = high.at - low.at;
+        if !changes && low.excess.abs() + high.excess.abs() > 2.0 * self.sizing.t() * width {
+            return Ok(());
+        }
+        let middle = 0.5 * (low.at + high.at);
+        let is_narrow = 2.0 * self.sizing.t() * width <= EATEN * low.radius;
+        if is_narrow || middle <= low.at || middle >= high.at {
+            if changes {
+                found.push(Crossing {
+                    at: middle,
+                    radius: low.radius,
+                    rises: low.excess < 0.0,
+                });
+            }
+            return Ok(());
+        }
+        *evaluations += 1;
+        if *evaluations > MOST_EVALUATIONS {
+            return Err(self.undecided());
+        }
+        let middle = self.sample(middle)?;
+        self.halve([low, middle], evaluations, found)?;
+        self.halve([middle, high], evaluations, found)
+    }
+}
