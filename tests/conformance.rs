@@ -6,7 +6,7 @@ use biting::geometry::DVec2;
 use biting::mesh::Mesh;
 use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace, parameter_value};
 use biting::quality::{Bounds, judge};
-use biting::spacing::{self, Options, Prepared, Spacing};
+use biting::spacing::{self, Options, Prepared, Rule, Spacing};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
@@ -68,6 +68,7 @@ fn certified(entry: &Entry, pslg: &Pslg, spec: &str, what: &str) -> Option<Mesh>
     let bounds = Bounds {
         spacing: &*prepared.function,
         c_b: C_B,
+        rule: Rule::Earlier,
         lfs_cap: prepared.lfs_cap,
         integral: None,
         integral_error: 0.0,

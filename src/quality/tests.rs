@@ -66,6 +66,7 @@ fn bounds(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
     Bounds {
         spacing,
         c_b,
+        rule: Rule::Earlier,
         lfs_cap: true,
         integral: Some(1.0),
         integral_error: 0.0,
