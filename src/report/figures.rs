@@ -17,6 +17,7 @@ pub(super) enum Section {
     Fewest,
     Frontier,
     Corners,
+    Rules,
     Orders,
     Time,
     Rivals,

@@ -206,3 +206,83 @@ impl Bisector {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    /// A piece from (0, 0) to (c, 0) where g is at least `size` − t ‖x − q‖.
+    struct Piece {
+        length: f64,
+        /// How far q is along it.
+        q: f64,
+        size: f64,
+    }
+
+    /// The least of g(x) sin φ / c over the points of a box that §6.3 allows, and where it is; g as small as it may be.
+    fn least(piece: &Piece, t: f64, [low, high]: [[f64; 2]; 2], side: usize) -> Option<(f64, [f64; 2])> {
+        let mut best: Option<(f64, [f64; 2])> = None;
+        let step = |axis: usize| (high[axis] - low[axis]) / side as f64;
+        for (i, j) in (0..=side).flat_map(|i| (0..=side).map(move |j| (i, j))) {
+            let x = [low[0] + i as f64 * step(0), low[1] + j as f64 * step(1)];
+            let away = |from: f64| (x[0] - from).hypot(x[1]);
+            let (one, other) = (away(0.0), away(piece.length));
+            let g = (piece.size - t * away(piece.q)).max(0.0);
+            let is_far = one.min(other) >= g && x[1] > 0.0;
+            let is_obtuse = one * one + other * other <= piece.length * piece.length;
+            // ½ ‖x − p₁‖ ‖x − p₂‖ sin φ = ½ c · height.
+            let sine = g * x[1] / (one * other);
+            if is_far && is_obtuse && best.is_none_or(|(least, _)| sine < least) {
+                best = Some((sine, x));
+            }
+        }
+        best
+    }
+
+    /// The same over all points, on finer and finer grids around the best.
+    fn least_of_all(piece: &Piece, t: f64) -> f64 {
+        let half = 0.5 * piece.length;
+        let Some((mut sine, mut at)) = least(piece, t, [[0.0, 0.0], [piece.length, half]], 160) else {
+            return f64::INFINITY;
+        };
+        let mut room = half / 20.0;
+        for _ in 0..4 {
+            let low = [(at[0] - room).max(0.0), (at[1] - room).max(0.0)];
+            let high = [(at[0] + room).min(piece.length), (at[1] + room).min(half)];
+            if let Some((finer, place)) = least(piece, t, [low, high], 40).filter(|(finer, _)| *finer < sine) {
+                (sine, at) = (finer, place);
+            }
+            room *= 0.2;
+        }
+        sine
+    }
+
+    #[test]
+    fn the_bound_of_the_first_subset_holds_beside_the_boundary() {
+        for t in [0.0, 0.1, 0.25, 1.0 / 3.0, 0.4, 0.5, 0.6, 0.75, 0.9, 0.97] {
+            let bound = 0.5 * (1.0 - t);
+            let progressive = Piece {
+                length: 1.0,
+                q: 1.0,
+                size: 1.0,
+            };
+            let least = least_of_all(&progressive, t);
+            assert!(least > 2.0 * bound, "{t}: {least} {bound}");
+            assert!(t > 0.41 || least == f64::INFINITY, "{t}: {least}");
+            for k in 0..=10 {
+                let middle = Piece {
+                    length: 1.0 + 0.05 * f64::from(k),
+                    q: 1.0,
+                    size: 1.0,
+                };
+                let least = least_of_all(&middle, t);
+                assert!(least > 1.32 * bound, "{t}, {}: {least} {bound}", middle.length);
+            }
+        }
+        // √7 / 4 by hand: x is 1 from both ends of a piece of 3/2.
+        let middle = Piece {
+            length: 1.5,
+            q: 1.0,
+            size: 1.0,
+        };
+        assert!((least_of_all(&middle, 0.0) - 7f64.sqrt() / 4.0).abs() < 1e-4);
+    }
+}

@@ -177,3 +177,89 @@ impl Watch<'_> {
         self.halve([middle, high], evaluations, found)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::meshers::{Budget, Request};
+    use crate::spacing::Spacing;
+    use proptest::prelude::*;
+
+    /// Waves of slope up to α along x.
+    struct Waves {
+        height: f64,
+        alpha: f64,
+        frequency: f64,
+    }
+
+    impl Spacing for Waves {
+        fn at(&self, x: DVec2) -> f64 {
+            self.height + self.alpha * (self.frequency * x.x).sin() / self.frequency
+        }
+
+        fn lipschitz(&self) -> f64 {
+            self.alpha
+        }
+    }
+
+    fn crossings(waves: &Waves, away: f64, range: [f64; 2]) -> Vec<Crossing> {
+        let domain = crate::domain::gallery::domain("unit-square").expect("a name").expect("a domain");
+        let request = Request {
+            c_b: 1.0,
+            seed: 0,
+            threads: 1,
+            budget: Budget::default(),
+        };
+        let watch = Watch {
+            sizing: Sizing::new(&domain, waves, &request),
+            foot: DVec2::new(0.0, 0.5),
+            direction: DVec2::X,
+            away,
+            share: 1.0,
+            guess: waves.height,
+        };
+        watch.crossings(range).expect("a finite spacing")
+    }
+
+    #[test]
+    fn a_constant_radius_is_left_where_its_circle_is() {
+        let flat = Waves {
+            height: 0.5,
+            alpha: 0.0,
+            frequency: 1.0,
+        };
+        let found = crossings(&flat, 0.3, [-2.0, 2.0]);
+        assert_eq!(found.len(), 2);
+        assert!((found[0].at + 0.4).abs() < 1e-13 && !found[0].rises);
+        assert!((found[1].at - 0.4).abs() < 1e-13 && found[1].rises);
+        assert!(crossings(&flat, 0.51, [-2.0, 2.0]).is_empty() && crossings(&flat, 0.3, [0.5, 0.2]).is_empty());
+        assert_eq!(crossings(&flat, 0.0, [-2.0, 0.0]).len(), 1);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(96))]
+        #[test]
+        fn no_crossing_is_missed(
+            height in 0.2..0.6f64, alpha in 0.0..0.97f64, frequency in 1.0..60.0f64, away in 0.0..0.6f64,
+            from in -1.0..0.0f64, to in 0.0..1.0f64,
+        ) {
+            let waves = Waves { height, alpha, frequency };
+            let found = crossings(&waves, away, [from, to]);
+            let excess = |w: f64| away.hypot(w) - waves.at(DVec2::new(w, 0.0));
+            for crossing in &found {
+                prop_assert!(excess(crossing.at).abs() < 1e-11, "{crossing:?}");
+                prop_assert!((crossing.radius - away.hypot(crossing.at)).abs() < 1e-11);
+            }
+            prop_assert!(found.windows(2).all(|two| two[0].at <= two[1].at && two[0].rises != two[1].rises));
+            // Every change of sign between samples has a crossing in between.
+            let at = |k: i32| from + (to - from) * f64::from(k) / 2000.0;
+            for k in 0..2000 {
+                let (low, high) = (at(k), at(k + 1));
+                let within = found.iter().filter(|crossing| low - 1e-12 <= crossing.at && crossing.at <= high + 1e-12);
+                if (excess(low) < 0.0) != (excess(high) < 0.0) {
+                    prop_assert!(within.count() > 0, "between {low} and {high}");
+                }
+            }
+        }
+    }
+}
