@@ -36,7 +36,7 @@ impl Promises {
         [least, self.upper(most)]
     }
 
-    /// The most that what one point eats can hold of ∫ dA / (c_b f)²: π / (1 − t)², as the crate's docs show;
+    /// The most that what one point eats can hold of ∫ dA / (c_b f)²: π / (1 − t)², as the docs of the certificate show;
     /// −2π (ln(1 − t) + t) / t² by the rule of the later point, where g grows with t away from it.
     pub fn most_eaten(self) -> f64 {
         let t = self.t;

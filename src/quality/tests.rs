@@ -7,6 +7,7 @@ use crate::mesh::Piece;
 use proptest::prelude::*;
 
 mod bounds_by_hand;
+mod by_later;
 mod covering;
 mod hypotheses;
 mod matching;

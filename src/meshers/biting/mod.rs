@@ -25,9 +25,13 @@
 //! angle of the others is below the smallest input angle there (`corner-angles`); what is about f holds where
 //! nothing was cut or held down.
 //!
+//! With `rule=later` two points keep the distance that the later of them asks for, and the smallest angle is at least
+//! asin((1 − t) / 2): [`rule`] has the theorem, its proof and the other bounds, which the certificate then holds.
+//!
 //! # Cost
 //! O(1) a bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
-//! O(n log n) for the triangulation.
+//! O(n log n) for the triangulation. By the rule of the later point some ten evaluations of f more a bite, for the roots that
+//! its front vertices are.
 //!
 //! # Deviations from the paper (and why)
 //! * The paper does not say which front vertex is bitten next: [`Order`] is a parameter. Its default, the largest spacing
