@@ -103,7 +103,7 @@ impl Gap {
     }
 
     /// The position where the gap leaves what the centre of `near` has eaten, which holds the centre of `circle` at its low end;
-    /// past its high end if it does not.
+    /// past its high end if it does not, and not above the low end where rounding has it that it is left already.
     pub fn exit(&self, front: &Front, circle: Disc, near: &Near) -> Result<f64, MeshError> {
         match front.rule {
             Rule::Earlier => Ok(self.chord(circle, near).map_or(self.low, |(_, exit)| exit)),
@@ -111,7 +111,7 @@ impl Gap {
                 let place = self.place(circle, near);
                 let watch = self.watch(front, place, 1.0 - tolerance::COVERED, circle.radius);
                 let exit = watch.exit([self.low - place.0, self.high - place.0])?;
-                Ok(exit.map_or(f64::INFINITY, |exit| place.0 + exit.at))
+                Ok(exit.map_or(f64::INFINITY, |exit| place.0 + exit))
             }
         }
     }
