@@ -103,11 +103,18 @@ fn certified(method: &Method, pslg: &Pslg, spec: &str, what: &str) -> Option<Mes
         lfs_cap: prepared.lfs_cap,
         integral: None,
         integral_error: 0.0,
-        guaranteed: &method.entry.guaranteed(&method.parameters, &domain, &*prepared.function, C_B),
+        guaranteed: &method
+            .entry
+            .guaranteed(&method.parameters, &domain, &*prepared.function, C_B),
     };
     let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
     let broken: Vec<_> = certificate.broken().collect();
-    assert!(broken.is_empty(), "{} on {} {what}: {broken:#?}", method.name, pslg.name);
+    assert!(
+        broken.is_empty(),
+        "{} on {} {what}: {broken:#?}",
+        method.name,
+        pslg.name
+    );
     assert!(certificate.holds);
     assert_eq!(
         mesh.points[..domain.vertices().len()],

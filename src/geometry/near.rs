@@ -153,11 +153,16 @@ impl DiscGrid {
     pub fn within(&self, point: DVec2, radius: f64, near: &mut Vec<Near>) {
         near.clear();
         let radii = [(1.0 - self.t) * radius, (1.0 + self.t) * radius];
-        self.visit_centres(point, radii, |_| radius, |candidate| {
-            if candidate.distance_squared < radius * radius {
-                near.push(candidate);
-            }
-        });
+        self.visit_centres(
+            point,
+            radii,
+            |_| radius,
+            |candidate| {
+                if candidate.distance_squared < radius * radius {
+                    near.push(candidate);
+                }
+            },
+        );
     }
 
     /// Collects into `near` the discs B(y, r) for which there may be a point z with a radius g(z) above ‖z − y‖ and above
@@ -169,12 +174,17 @@ impl DiscGrid {
         near.clear();
         let reach = |r: f64| 2.0 * r / (1.0 - self.t);
         let steepest = (1.0 + self.t) / (1.0 - self.t);
-        self.visit_centres(centre, [radius / steepest, radius * steepest], |_| reach(radius), |candidate| {
-            let reach = reach(radius.min(candidate.radius));
-            if candidate.distance_squared < reach * reach {
-                near.push(candidate);
-            }
-        });
+        self.visit_centres(
+            centre,
+            [radius / steepest, radius * steepest],
+            |_| reach(radius),
+            |candidate| {
+                let reach = reach(radius.min(candidate.radius));
+                if candidate.distance_squared < reach * reach {
+                    near.push(candidate);
+                }
+            },
+        );
     }
 
     /// Calls `visit` for every disc that may meet `B(centre, extent)`, in an order that depends on the discs alone.
@@ -182,7 +192,10 @@ impl DiscGrid {
     /// A disc B(y, r) that does has ‖y − centre‖ < extent + r, and |r − radius| ≤ t ‖y − centre‖: so r lies between
     /// (radius − t · extent) / (1 + t) and (radius + t · extent) / (1 − t), and y within (radius + extent) / (1 − t).
     fn visit(&self, centre: DVec2, radius: f64, extent: f64, visit: impl FnMut(Near)) {
-        let radii = [(radius - self.t * extent) / (1.0 + self.t), (radius + self.t * extent) / (1.0 - self.t)];
+        let radii = [
+            (radius - self.t * extent) / (1.0 + self.t),
+            (radius + self.t * extent) / (1.0 - self.t),
+        ];
         let reach = ROOM * (radius + extent) / (1.0 - self.t);
         // Radii of a level are below its cell size.
         self.visit_centres(centre, radii, |cell_size| reach.min(extent + cell_size), visit);

@@ -100,7 +100,9 @@ impl Entry {
     /// other.
     pub fn rule(&self, given: &Parameters) -> Rule {
         let named = self.complete(given).remove("rule");
-        named.and_then(|rule| serde_json::from_value(rule).ok()).unwrap_or_default()
+        named
+            .and_then(|rule| serde_json::from_value(rule).ok())
+            .unwrap_or_default()
     }
 
     /// The claims guaranteed with the parameters given, for a domain, a spacing and c_b.

@@ -30,9 +30,7 @@ impl Promises {
     pub fn nn_at_points(self) -> [f64; 2] {
         let t = self.t;
         let least = self.rule.of(1.0 / (2.0 + 2.0 * t), 1.0 / (2.0 + t));
-        let most = self
-            .rule
-            .of((3.0 - t) / ((1.0 - t) * (1.0 - t)), (3.0 + t) / (1.0 - t));
+        let most = self.rule.of((3.0 - t) / ((1.0 - t) * (1.0 - t)), (3.0 + t) / (1.0 - t));
         [least, self.upper(most)]
     }
 

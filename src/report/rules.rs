@@ -65,7 +65,10 @@ impl<'a> Pairs<'a> {
     }
 
     fn least_angle(&self, k: usize) -> Option<f64> {
-        let angles = self.reports.iter().filter_map(|two| two[k].statistics.min_angle_free_deg);
+        let angles = self
+            .reports
+            .iter()
+            .filter_map(|two| two[k].statistics.min_angle_free_deg);
         angles.reduce(f64::min)
     }
 
@@ -89,7 +92,14 @@ fn is_later(row: &Row) -> bool {
 
 fn is_partner(row: &Row, other: &Row, way: &Way) -> bool {
     let (own, its) = (&row.cell, &other.cell);
-    let task = |row: &Row| (row.cell.domain.clone(), row.cell.spacing.clone(), row.cell.seed, row.cell.lfs_cap);
+    let task = |row: &Row| {
+        (
+            row.cell.domain.clone(),
+            row.cell.spacing.clone(),
+            row.cell.seed,
+            row.cell.lfs_cap,
+        )
+    };
     let near = |value: f64, expected: f64| (value - expected).abs() <= 1e-9 * expected;
     task(row) == task(other)
         && named(row, "order") == named(other, "order")

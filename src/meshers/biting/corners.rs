@@ -271,7 +271,8 @@ impl<'a> Plan<'a> {
             let mut fit = f64::INFINITY;
             for edge in &fan.edges {
                 for way in edge.ends {
-                    fit = fit.min(capped.at(vertex + way * distance)? / (edge.least_radius(self.t, self.rule) * distance));
+                    fit = fit
+                        .min(capped.at(vertex + way * distance)? / (edge.least_radius(self.t, self.rule) * distance));
                 }
             }
             if fit < 1.0 {

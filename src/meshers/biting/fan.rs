@@ -183,7 +183,11 @@ fn fewest_parts(angle: f64, t: f64, rule: Rule) -> f64 {
     let is_flat = angle >= FRAC_PI_2;
     let fits = |count: f64| {
         let edge = edge(angle / count);
-        let most = if is_flat || count > 1.0 { SHARE * edge.width() } else { edge.most_radius(rule) };
+        let most = if is_flat || count > 1.0 {
+            SHARE * edge.width()
+        } else {
+            edge.most_radius(rule)
+        };
         most >= ROOM * edge.least_radius(t, rule)
     };
     let least = if is_flat { (angle / WIDEST_PART).ceil() } else { 1.0 };
@@ -317,7 +321,10 @@ mod tests {
             let pairs = all.windows(2).map(|pair| [pair[0], pair[1]]);
             let last = (degrees.iter().sum::<f64>() > 359.0).then(|| [all[all.len() - 1], all[0]]);
             for [one, other] in pairs.chain(last) {
-                assert!(fit(one.min(other), one.max(other), 0.25, Rule::Earlier), "{degrees:?}: {one} {other}");
+                assert!(
+                    fit(one.min(other), one.max(other), 0.25, Rule::Earlier),
+                    "{degrees:?}: {one} {other}"
+                );
             }
             assert!(all.len() < 80, "{degrees:?}: {}", all.len());
         }

@@ -11,12 +11,12 @@
 //! # Cost
 //! O(1) a bite, however graded the spacing is; nothing is scanned globally or rebuilt.
 
+use super::Biting;
 use super::corners::Cuts;
 use super::notches::Notches;
 use super::order::{Queue, RANK_STEP, Ticket};
-use crate::domain::Domain;
-use super::Biting;
 use super::rule::Meeting;
+use crate::domain::Domain;
 use crate::geometry::near::{Disc, DiscGrid, Near};
 use crate::geometry::{DVec2, tolerance};
 use crate::meshers::sizing::Sizing;

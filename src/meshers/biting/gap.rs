@@ -133,7 +133,12 @@ impl Gap {
     }
 
     /// What a bite leaves of the gap, to be seen from the other end next.
-    pub fn without(self, front: &Front, position: f64, disc: Disc) -> Result<impl Iterator<Item = Self> + use<>, MeshError> {
+    pub fn without(
+        self,
+        front: &Front,
+        position: f64,
+        disc: Disc,
+    ) -> Result<impl Iterator<Item = Self> + use<>, MeshError> {
         let (before, after) = match front.rule {
             Rule::Earlier => (position - disc.radius, position + disc.radius),
             Rule::Later => {

@@ -135,7 +135,13 @@ impl Front<'_> {
             share: 1.0,
             guess: disc.radius,
         };
-        let crossings = watch.crossings([bisector.from, bisector.to])?;
+        let mut crossings = Vec::new();
+        for range in bisector.outside(
+            disc.radius.max(other.radius) / (ROOM * (1.0 + self.radii.t())),
+            half.length(),
+        ) {
+            crossings.extend(watch.crossings(range)?);
+        }
         let meeting = |crossing: &super::watch::Crossing| {
             // The very point of the paper's rule where f is constant.
             let circle = Near {
@@ -200,6 +206,19 @@ struct Bisector {
 }
 
 impl Bisector {
+    /// The parts of it, `away` from the two centres, that are farther from them than `radius`: nearer ones are eaten, since g
+    /// cannot fall so fast.
+    fn outside(&self, radius: f64, away: f64) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let across = radius * radius - away * away;
+        let parts = if across > 0.0 {
+            let eaten = across.sqrt();
+            [[self.from, self.to.min(-eaten)], [self.from.max(eaten), self.to]]
+        } else {
+            [[self.from, self.to], [0.0, 0.0]]
+        };
+        parts.into_iter().filter(|[from, to]| from < to)
+    }
+
     fn keep_within(&mut self, foot: DVec2, [min, max]: [DVec2; 2]) {
         for axis in 0..2 {
             let (way, low, high) = (self.direction[axis], min[axis] - foot[axis], max[axis] - foot[axis]);

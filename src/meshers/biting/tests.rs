@@ -373,7 +373,13 @@ fn by_the_rule_of_the_later_point_the_bounds_hold() {
                 let (mesh, certificate) = by_later(name, spec, t, c_b, Order::default());
                 let broken: Vec<_> = certificate.broken().collect();
                 assert!(broken.is_empty(), "{name} {spec} {t} {c_b}: {broken:?}");
-                for claim in ["min-angle", "coverage", "packing-disjoint", "nn-vertex-upper", "nn-point-lower"] {
+                for claim in [
+                    "min-angle",
+                    "coverage",
+                    "packing-disjoint",
+                    "nn-vertex-upper",
+                    "nn-point-lower",
+                ] {
                     assert!(certificate.check(claim).expect("a check").applies, "{claim}");
                 }
                 assert!(mesh.triangles.len() > 2);

@@ -68,13 +68,19 @@ impl Watch<'_> {
         let mut ends = vec![from];
         ends.extend([-turn, turn].into_iter().filter(|w| from < *w && *w < to));
         ends.push(to);
-        let samples: Vec<Sample> = ends.iter().map(|w| self.sample(*w)).collect::<Result<_, _>>()?;
-        for pair in samples.windows(2) {
+        for pair in ends.windows(2) {
             let [first, last] = [pair[0], pair[1]];
-            if -turn < last.at && first.at < turn {
-                self.halve([first, last], 0, &mut found)?;
-            } else if let Some(crossing) = self.only_crossing([first, last])? {
-                found.push(crossing);
+            if -turn < last && first < turn {
+                self.halve([self.sample(first)?, self.sample(last)?], 0, &mut found)?;
+                continue;
+            }
+            // F is larger at the end away from the foot: where it is negative there, it is everywhere.
+            let (near, far) = if first >= turn { (first, last) } else { (last, first) };
+            let far = self.sample(far)?;
+            if far.excess >= 0.0 {
+                let near = self.sample(near)?;
+                let both = if near.at < far.at { [near, far] } else { [far, near] };
+                found.extend(self.only_crossing(both)?);
             }
         }
         Ok(found)
@@ -137,7 +143,11 @@ impl Watch<'_> {
             };
             last = sample;
         }
-        let nearest = if high.excess.abs() < low.excess.abs() { high } else { low };
+        let nearest = if high.excess.abs() < low.excess.abs() {
+            high
+        } else {
+            low
+        };
         Ok(Some(Crossing {
             at: nearest.at,
             radius: nearest.radius,
@@ -173,7 +183,10 @@ impl Watch<'_> {
         let at = |share: f64, from: f64, to: f64| self.sample(from + share * (to - from));
         let mut inner = [at(1.0 - GOLDEN, from, to)?, at(GOLDEN, from, to)?];
         for _ in 0..STEPS_TO_EXTREMUM {
-            if let Some(other) = inner.into_iter().find(|sample| (sample.excess < 0.0) != (low.excess < 0.0)) {
+            if let Some(other) = inner
+                .into_iter()
+                .find(|sample| (sample.excess < 0.0) != (low.excess < 0.0))
+            {
                 return Ok(Some(other));
             }
             if side * inner[0].excess > side * inner[1].excess {
@@ -213,7 +226,9 @@ mod tests {
     }
 
     fn crossings(waves: &Waves, away: f64, range: [f64; 2]) -> Vec<Crossing> {
-        let domain = crate::domain::gallery::domain("unit-square").expect("a name").expect("a domain");
+        let domain = crate::domain::gallery::domain("unit-square")
+            .expect("a name")
+            .expect("a domain");
         let request = Request {
             c_b: 1.0,
             seed: 0,

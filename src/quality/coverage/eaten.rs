@@ -10,6 +10,7 @@ use crate::geometry::DVec2;
 use crate::geometry::tolerance::CERTIFICATE;
 use crate::quality::Check;
 use crate::quality::subject::Sizes;
+use std::collections::VecDeque;
 
 /// Most quarterings of a triangle and its parts.
 const QUARTERED: usize = 1 << 15;
@@ -23,9 +24,9 @@ pub fn check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
             if let Some((centre, f)) = sizes.circumcentres[triangle] {
                 see(&mut tally, centre, sizes, f);
             }
-            let mut parts = QUARTERED;
-            if !is_covered(subject.mesh.corners(triangle), &mut tally, sizes, &mut parts) && parts == 0 {
-                tally.see(1.0, disc_around(subject.mesh.corners(triangle)).0, true);
+            let corners = subject.mesh.corners(triangle);
+            if is_covered(corners, &mut tally, sizes).is_none() {
+                tally.see(1.0, disc_around(corners).0, true);
             }
         }
         tally
@@ -46,19 +47,28 @@ fn see(tally: &mut Tally, x: DVec2, sizes: &Sizes, f: f64) -> (f64, f64, bool) {
     (distance, g, is_covered)
 }
 
-/// Whether all points of a triangle are covered, and `parts` sufficed to tell. It stops at the first that is not.
-fn is_covered(corners: [DVec2; 3], tally: &mut Tally, sizes: &Sizes, parts: &mut usize) -> bool {
-    let (centre, radius) = disc_around(corners);
-    let (distance, g, is_centre_covered) = see(tally, centre, sizes, sizes.bounds.spacing.at(centre));
-    if !is_centre_covered || *parts == 0 {
-        return false;
+/// Whether all points of a triangle are covered; larger parts first, so that it ends soon where some are not. Nothing is
+/// told where too many parts would be needed.
+fn is_covered(corners: [DVec2; 3], tally: &mut Tally, sizes: &Sizes) -> Option<bool> {
+    let mut waiting = VecDeque::from([corners]);
+    let mut quarterings = 0;
+    while let Some(corners) = waiting.pop_front() {
+        let (centre, radius) = disc_around(corners);
+        let (distance, g, is_centre_covered) = see(tally, centre, sizes, sizes.bounds.spacing.at(centre));
+        if !is_centre_covered {
+            return Some(false);
+        }
+        let change = (1.0 + sizes.t()) * radius;
+        if distance + change <= g * (1.0 + CERTIFICATE) || change <= g * CERTIFICATE {
+            continue;
+        }
+        quarterings += 1;
+        if quarterings > QUARTERED {
+            return None;
+        }
+        let [a, b, c] = corners;
+        let [d, e, f] = [b.midpoint(c), c.midpoint(a), a.midpoint(b)];
+        waiting.extend([[d, e, f], [a, f, e], [f, b, d], [e, d, c]]);
     }
-    if distance + (1.0 + sizes.t()) * radius <= g * (1.0 + CERTIFICATE) {
-        return true;
-    }
-    *parts -= 1;
-    let [a, b, c] = corners;
-    let [d, e, f] = [b.midpoint(c), c.midpoint(a), a.midpoint(b)];
-    let quarters = [[d, e, f], [a, f, e], [f, b, d], [e, d, c]];
-    quarters.into_iter().all(|quarter| is_covered(quarter, tally, sizes, parts))
+    Some(true)
 }

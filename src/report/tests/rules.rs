@@ -23,11 +23,21 @@ fn meshes_are_paired_at_equal_t_and_at_equal_guaranteed_angle() {
     ];
     let findings = rule_findings(&rows);
     assert_eq!(findings.len(), 3);
-    for (finding, [pairs, triangles]) in findings.iter().zip([["2 of 2", "0.700"], ["1 of 1", "0.500"], ["1 of 1", "0.250"]]) {
-        assert!(finding.contains(pairs) && finding.contains(&format!("{triangles} times the triangles")), "{finding}");
+    for (finding, [pairs, triangles]) in
+        findings
+            .iter()
+            .zip([["2 of 2", "0.700"], ["1 of 1", "0.500"], ["1 of 1", "0.250"]])
+    {
+        assert!(
+            finding.contains(pairs) && finding.contains(&format!("{triangles} times the triangles")),
+            "{finding}"
+        );
     }
     let text = rules(&rows);
     assert_eq!(text.matches("### ").count(), 3);
-    assert!(text.contains("| fifo | 0.25 : 0.5 | 0.5 : 1 | 1 of 1 | 14.48° |"), "{text}");
+    assert!(
+        text.contains("| fifo | 0.25 : 0.5 | 0.5 : 1 | 1 of 1 | 14.48° |"),
+        "{text}"
+    );
     assert!(rule_findings(&rows[..1]).is_empty() && rules(&rows[1..4]).is_empty());
 }
