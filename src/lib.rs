@@ -37,6 +37,7 @@ pub mod fem;
 pub mod figures;
 pub mod files;
 pub mod geometry;
+pub mod lemmas;
 pub mod mesh;
 pub mod meshers;
 pub mod peers;
