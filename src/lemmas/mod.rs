@@ -6,10 +6,42 @@
 //!
 //! [`statements`] has the records in the order of the paper, [`errata`] what came out beside numbers.
 
+pub mod demonstration;
+pub mod errata;
+pub mod findings;
 pub mod judge;
+pub mod measured;
 pub mod record;
 pub mod search;
 pub mod slopes;
 pub mod statements;
+pub mod table;
+
+use crate::files::write_whole;
+use measured::Meshes;
+use std::path::{Path, PathBuf};
+use table::Line;
+
+/// Judges all statements and writes `results/lemmas` and `paper/errata.md` below `root`; returns what was judged, and the files.
+///
+/// # Errors
+/// What could not be read, run or written.
+pub fn write(root: &Path) -> Result<(Vec<Line>, Vec<PathBuf>), String> {
+    let results = root.join("results");
+    let meshes = Meshes::read(&results).map_err(|error| error.to_string())?;
+    let lines = table::judge_all(&meshes, None);
+    let rows: String = lines.iter().map(|line| line.row().to_string() + "\n").collect();
+    let files = [
+        (results.join("lemmas/rows.jsonl"), rows),
+        (results.join("lemmas/README.md"), table::page(&lines, &meshes)),
+        (root.join("paper/errata.md"), errata::page(&lines)?),
+    ];
+    let mut written = Vec::new();
+    for (path, text) in files {
+        write_whole(&path, text.as_bytes()).map_err(|error| format!("could not write {}: {error}", path.display()))?;
+        written.push(path);
+    }
+    Ok((lines, written))
+}
 #[cfg(test)]
 mod tests;

@@ -11,7 +11,7 @@ mod duels;
 mod figures;
 mod findings;
 mod frontiers;
-mod markdown;
+pub(crate) mod markdown;
 mod meshes;
 mod page;
 mod peers;
