@@ -4,6 +4,7 @@
 
 mod angles;
 mod bitmap;
+mod bounds;
 mod canvas;
 mod corners;
 mod dots;
@@ -22,6 +23,7 @@ mod style;
 mod time;
 
 pub use angles::smallest_angle;
+pub use bounds::{BoundFigure, bound};
 pub use canvas::ChartError;
 pub use corners::{side_by_side, window};
 pub use frontier::size_for_angle;

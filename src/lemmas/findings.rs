@@ -181,8 +181,8 @@ pub static FINDINGS: &[Finding] = &[
         demonstration: Some(Demonstration::Mesh(MeshRun {
             domain: "interface",
             spacing: "lfs",
-            t: 0.3,
-            c_b: 0.5,
+            t: 0.2,
+            c_b: 0.75,
             lfs_cap: true,
             shows: forced,
         })),

@@ -17,6 +17,7 @@ pub mod slopes;
 pub mod statements;
 pub mod table;
 
+use crate::charts;
 use crate::files::write_whole;
 use measured::Meshes;
 use std::path::{Path, PathBuf};
@@ -41,6 +42,13 @@ pub fn write(root: &Path) -> Result<(Vec<Line>, Vec<PathBuf>), String> {
         write_whole(&path, text.as_bytes()).map_err(|error| format!("could not write {}: {error}", path.display()))?;
         written.push(path);
     }
+    for line in &lines {
+        if let Some(figure) = line.figure(&meshes) {
+            let stem = results.join("lemmas/charts").join(line.statement.name);
+            charts::bound(&figure, &stem).map_err(|error| error.to_string())?;
+        }
+    }
+    written.push(results.join("lemmas/charts"));
     Ok((lines, written))
 }
 #[cfg(test)]

@@ -180,8 +180,10 @@ mod tests {
     fn at_a_kink_slopes_hold_both_sides() {
         let x = Number::unknown(0, Interval::new(-1.0, 2.0));
         let fixed = Number::fixed(Interval::point(0.5));
-        assert_eq!(x.min(fixed).slopes[0], Interval::new(0.0, 1.0));
-        assert_eq!(x.abs().slopes[0], Interval::new(-1.0, 1.0));
-        assert_eq!(x.max(Number::fixed(Interval::point(3.0))).slopes[0], -ZERO);
+        let near = |slope: Interval, low: f64, high: f64| (slope.low - low).abs() + (slope.high - high).abs() < 1e-12;
+        assert!(near(x.min(fixed).slopes[0], 0.0, 1.0));
+        assert!(near(x.abs().slopes[0], -1.0, 1.0));
+        // Below 3 throughout, so that the larger of the two does not depend on it.
+        assert!(near(x.max(Number::fixed(Interval::point(3.0))).slopes[0], 0.0, 0.0));
     }
 }

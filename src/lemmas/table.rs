@@ -4,6 +4,7 @@ use super::judge::{Judged, Verdict, grid, optima, verdict};
 use super::measured::{Meshes, Worst};
 use super::record::{Bound, Statement};
 use super::statements;
+use crate::charts::BoundFigure;
 use crate::report::markdown::{number, plain, table};
 use serde_json::{Value, json};
 
@@ -74,6 +75,37 @@ impl Line {
             "measured": self.worst.as_ref().map(|worst| json!({
                 "ratio": worst.ratio, "seen": worst.seen, "at": worst.at, "t": worst.t, "meshes": worst.meshes,
             })),
+        })
+    }
+
+    /// The figure: printed formula, corrected one, optima, worst on meshes; none where there is no range to draw over.
+    pub fn figure(&self, meshes: &Meshes) -> Option<BoundFigure> {
+        let statement = &self.statement;
+        let (least, most) = statement.range;
+        if least == most {
+            return None;
+        }
+        let curve = |bound: Bound, (least, most): (f64, f64)| {
+            let at = |k: u32| least + (most - least) * f64::from(k) / 100.0;
+            (0..=100).map(|k| (at(k), (bound.at)(at(k)))).collect::<Vec<_>>()
+        };
+        let measured = meshes.by_t(statement).into_iter();
+        Some(BoundFigure {
+            title: statement.place.into(),
+            parameter: statement.parameter.into(),
+            printed: curve(statement.printed, statement.range),
+            corrected: statement
+                .corrected
+                .map_or(Vec::new(), |corrected| curve(corrected.bound, corrected.range)),
+            optimum: self
+                .judged
+                .iter()
+                .map(|one| (one.parameter, one.optimum.found))
+                .collect(),
+            measured: measured
+                .filter_map(|(t, worst)| Some((t.parse().ok()?, worst)))
+                .filter(|(t, _): &(f64, f64)| *t <= most)
+                .collect(),
         })
     }
 
@@ -190,6 +222,16 @@ pub fn page(lines: &[Line], meshes: &Meshes) -> String {
         })
         .collect();
     text += &table(&["statement", "worst / bound", "cell", "t", "at"], &seen);
+    text += "## Figures\n\n";
+    for line in lines
+        .iter()
+        .filter(|line| line.statement.range.0 < line.statement.range.1)
+    {
+        let Statement {
+            name, place, quantity, ..
+        } = &line.statement;
+        text += &format!("![{place}](charts/{name}.png)\n*{place}: {quantity}.* ([SVG](charts/{name}.svg))\n\n");
+    }
     text += "## What each needs and what rests on it\n\n";
     for line in lines {
         text += &needs(&line.statement);
