@@ -36,7 +36,7 @@ pub fn formula(line: &Line) -> String {
         return String::new();
     };
     let mut text = format!(
-        "### {}: {}\n\n* Bounded: {}.\n* Printed: {} {}, for {}. Verdict: {}.\n* True: {} {}. Verdict: {}.\n* Why: {}\n* Consequence: {}\n",
+        "### {}: {}\n\n* Bounded: {}.\n* Printed: {} {} (range: {}). Verdict: {}.\n* True: {} {}. Verdict: {}.\n* Why: {}\n* Consequence: {}\n",
         statement.place,
         line.printed.word(),
         statement.quantity,

@@ -177,12 +177,12 @@ pub static FINDINGS: &[Finding] = &[
               with vertices there on both sides, the two angles add up to more than 180°: the piece is no edge of the Delaunay triangulation of the \
               centres, and the segment is not in the mesh. On a boundary with the domain on one side only, c_b ≤ 2/(3 + t) keeps all else out of the piece's circle.",
         consequence: "The triangulation must be constrained. Lemma 6.1 then needs that no vertex hidden behind a forced piece is inside the circumcircle of a triangle that sees \
-              its circumcentre; none was found to be in any mesh, and every angle bound held.",
+              its circumcentre; the angle bound held in every committed mesh with forced pieces.",
         demonstration: Some(Demonstration::Mesh(MeshRun {
             domain: "interface",
             spacing: "lfs",
-            t: 0.2,
-            c_b: 0.75,
+            t: 1.0 / 3.0,
+            c_b: 0.5,
             lfs_cap: true,
             shows: forced,
         })),

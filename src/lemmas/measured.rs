@@ -16,6 +16,8 @@ pub struct Meshes {
 /// The worst that meshes show of a statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
+    /// The check.
+    pub claim: &'static str,
     /// The check's worst value over its bound: at least 1 where a bound from below holds, at most 1 where one from above does.
     pub ratio: f64,
     /// Experiment and cell.
@@ -29,7 +31,7 @@ pub struct Worst {
 }
 
 impl Meshes {
-    /// Reads `rows.jsonl` of every folder in `results` but those of quick runs.
+    /// Reads `rows.jsonl` of every experiment's folder in `results`, which has a plan, but those of quick runs.
     ///
     /// # Errors
     /// A file that cannot be read.
@@ -38,7 +40,7 @@ impl Meshes {
             .into_iter()
             .flatten()
             .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| path.join("rows.jsonl").is_file())
+            .filter(|path| ["plan.toml", "rows.jsonl"].iter().all(|name| path.join(name).is_file()))
             .collect();
         folders.sort();
         let mut rows = Vec::new();
@@ -73,6 +75,7 @@ impl Meshes {
             });
             if is_worse {
                 worst = Some(Worst {
+                    claim: statement.measured.map_or("", |measured| measured.claim),
                     ratio,
                     seen: format!("{experiment}: {}", row.key),
                     at,

@@ -44,7 +44,7 @@ pub fn write(root: &Path) -> Result<(Vec<Line>, Vec<PathBuf>), String> {
     }
     for line in &lines {
         if let Some(figure) = line.figure(&meshes) {
-            let stem = results.join("lemmas/charts").join(line.statement.name);
+            let stem = results.join("lemmas/charts").join(line.statement.figure_name());
             charts::bound(&figure, &stem).map_err(|error| error.to_string())?;
         }
     }

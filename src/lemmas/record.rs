@@ -60,6 +60,13 @@ pub struct Labelled {
     pub radius: Option<f64>,
 }
 
+impl Statement {
+    /// Name of its figure's files: without the full stop, which would begin an ending.
+    pub fn figure_name(&self) -> String {
+        self.name.replace('.', "-")
+    }
+}
+
 /// A corrected bound.
 #[derive(Clone, Copy)]
 pub struct Corrected {

@@ -227,9 +227,8 @@ pub fn page(lines: &[Line], meshes: &Meshes) -> String {
         .iter()
         .filter(|line| line.statement.range.0 < line.statement.range.1)
     {
-        let Statement {
-            name, place, quantity, ..
-        } = &line.statement;
+        let Statement { place, quantity, .. } = &line.statement;
+        let name = line.statement.figure_name();
         text += &format!("![{place}](charts/{name}.png)\n*{place}: {quantity}.* ([SVG](charts/{name}.svg))\n\n");
     }
     text += "## What each needs and what rests on it\n\n";

@@ -2,6 +2,7 @@
 
 use super::findings::FINDINGS;
 use super::judge::{Verdict, grid, optima, verdict};
+use super::measured::Meshes;
 use super::record::{Bound, Statement};
 use super::search::Sense;
 use super::statements;
@@ -152,4 +153,28 @@ fn names_are_unique() {
         .chain(FINDINGS.iter().map(|finding| finding.name))
         .collect();
     assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len());
+}
+
+#[test]
+fn committed_meshes_keep_every_bound() {
+    let results = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("results");
+    let meshes = Meshes::read(&results).expect("the committed rows");
+    assert!(meshes.count() > 1000);
+    for statement in statements::all() {
+        let Some(worst) = meshes.worst(&statement) else {
+            continue;
+        };
+        // Of counts of vertices the certificate bounds the other side than the integral that the statement is about.
+        let at_least = match worst.claim {
+            "vertices-lower" => true,
+            "vertices-upper" => false,
+            _ => statement.sense == Sense::AtLeast,
+        };
+        let kept = if at_least {
+            worst.ratio >= 1.0 - 1e-6
+        } else {
+            worst.ratio <= 1.0 + 1e-6
+        };
+        assert!(kept && worst.meshes > 100, "{}: {worst:?}", statement.name);
+    }
 }
