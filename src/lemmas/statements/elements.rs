@@ -1,6 +1,7 @@
 //! §6.1: triangles that see their circumcentre (Lemmas 6.1 and 6.2).
 
 use super::*;
+use crate::lemmas::record::Measured;
 
 pub(super) const STATEMENTS: &[Statement] = &[LEMMA_6_1, LEMMA_6_2];
 
@@ -54,7 +55,7 @@ const LEMMA_6_1: Statement = Statement {
 
 const LEMMA_6_2: Statement = Statement {
     name: "lemma-6.2",
-    place: "Lemma 6.2, (7)",
+    place: "Lemma 6.2, (7); on meshes Theorem 6.8, all triangles",
     quantity: "sin θ of the smallest angle of a triangle that sees its circumcentre",
     printed: Bound {
         says: "1/2 − t",
@@ -65,5 +66,9 @@ const LEMMA_6_2: Statement = Statement {
         quantity: |t, v| number(0.5) * (v[0] - t * apart(v)),
         ..LEMMA_6_1.problem
     },
+    measured: Some(Measured {
+        claim: "min-angle",
+        quantity: Some(|degrees, _, _| degrees.to_radians().sin()),
+    }),
     ..LEMMA_6_1
 };

@@ -2,7 +2,7 @@
 
 use super::boundary::{MIDDLE, corrected_10, meeting_height, middle, middle_points};
 use super::*;
-use crate::lemmas::record::{Corrected, Measured};
+use crate::lemmas::record::Corrected;
 
 pub(super) const STATEMENTS: &[Statement] = &[
     LEMMA_6_5,
@@ -175,10 +175,6 @@ const THEOREM_6_8: Statement = Statement {
         quantity: |t, v| number(0.5) * (LEMMA_6_7.problem.quantity)(t, v),
         ..LEMMA_6_7.problem
     },
-    measured: Some(Measured {
-        claim: "min-angle",
-        quantity: Some(|degrees, _, _| degrees.to_radians().sin()),
-    }),
     ..LEMMA_6_7
 };
 
