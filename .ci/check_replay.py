@@ -30,12 +30,12 @@ PURE = """
   const last = lastPosition(replay);
   const isOrdered = replay.vertices.turns.length > 0;
   for (let position = 0; position <= last; position += 1) {
-    const { title, text } = explain(replay, position);
+    const moment = momentAt(replay, position);
+    const { title, text } = explain(replay, moment);
     demand(!/undefined|NaN|null|Infinity/.test(title + text), `words at ${position}: ${title}: ${text}`);
-    const bite = biteAt(replay, position);
+    const { bite, waiting } = moment;
     const serial = bite < 0 ? -1 : replay.chosen[bite];
     if (serial < 0) continue;
-    const waiting = waitingBefore(replay, bite);
     demand(waiting.includes(serial), `vertex ${serial}, chosen at ${position}, does not wait`);
     demand(replay.vertices.gone[serial] === bite, `vertex ${serial}, chosen at ${position}, stays`);
     demand(!isOrdered || placeAmong(replay, serial, waiting) === 1, `vertex ${serial} is not the first at ${position}`);
@@ -47,8 +47,8 @@ PURE = """
   demand(starts.every((start, index) => index === 0 || start > starts[index - 1]), `steps start at ${starts}`);
   demand(starts.slice(1).every((start, index) => nextStep(replay, starts[index]) === start), "next step");
   demand(starts.slice(1).every((start, index) => previousStep(replay, start) === starts[index]), "previous step");
-  const counts = countKinds(replay, last);
-  demand(Object.values(counts).reduce((sum, count) => sum + count) === replay.count, "counts");
+  const all = Object.keys(KINDS).reduce((sum, letter) => sum + countOf(replay, letter, last), 0);
+  demand(all === replay.count, `${all} bites are counted`);
   return faults.slice(0, 5);
 }
 """
@@ -60,6 +60,8 @@ KEEP = """
   const { canvas } = window.replay.picture;
   // Of a copy: a canvas that is read often is drawn another way.
   const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+  copy.fillStyle = window.replay.picture.colours.page;
+  copy.fillRect(0, 0, canvas.width, canvas.height);
   copy.drawImage(canvas, 0, 0);
   window.kept = { ...window.kept, [name]: copy.getImageData(0, 0, canvas.width, canvas.height).data };
 })

@@ -143,8 +143,9 @@ function start() {
   let isDue = false;
   const draw = () => {
     isDue = false;
-    picture.draw(player.position, pointer.pointed);
-    panel.show();
+    const moment = momentAt(replay, player.position);
+    picture.draw(moment, pointer.pointed);
+    panel.show(moment);
   };
   const redraw = () => {
     if (!isDue) requestAnimationFrame(draw);

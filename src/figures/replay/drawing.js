@@ -3,6 +3,12 @@
 /** The pixels of a canvas are at most so many times those of the page. */
 const MOST_PIXELS_A_PIXEL = 2;
 
+/** A path of many more dots is slow to fill. */
+const DOTS_A_PATH = 100;
+
+/** Dots of a smaller radius, in pixels of the canvas, are squares. */
+const SQUARE = 1.5;
+
 /** Colours of the page, by the names they have in its style. */
 function readColours() {
   const style = getComputedStyle(document.documentElement);
@@ -21,8 +27,6 @@ class Picture {
     this.domain = polygonsPath(replay.points, replay.outline.rings);
     this.segments = linesPath(replay.points, replay.outline.segments);
     this.corners = polygonsPath(replay.points, replay.outline.corners.map((triangle) => replay.triangles[triangle]));
-    this.mesh = polygonsPath(replay.points, replay.triangles);
-    this.angles = undefined;
     this.colours = readColours();
     this.resize();
   }
@@ -53,32 +57,29 @@ class Picture {
     this.layers.reset(this.canvas.width, this.canvas.height, this.ratio, this.view, this.colours);
   }
 
-  /** Draws a position, and a circle or front vertex pointed at. */
-  draw(position, pointed = {}) {
+  /** Draws a moment, and a circle or front vertex pointed at. */
+  draw(moment, pointed = {}) {
     const { context, canvas, replay } = this;
     context.clearRect(0, 0, canvas.width, canvas.height);
-    this.layers.show(bittenAt(replay, position));
-    this.drawDomain(position);
-    if (position > replay.count) {
-      this.drawMesh();
-    } else {
-      this.drawWaiting(biteAt(replay, position));
-      if (biteAt(replay, position) >= 0) this.drawBite(biteAt(replay, position));
-    }
+    this.layers.show(moment.bitten);
+    this.drawDomain(moment);
+    this.drawWaiting(moment);
+    if (moment.bite >= 0) this.drawBite(moment.bite);
+    if (moment.position > replay.count) this.drawMesh();
     if (pointed.bite >= 0) this.outline(pointed.bite, this.colours.ink);
     if (pointed.vertex >= 0) this.ringAt(pointed.vertex);
   }
 
   /** The domain, what has been bitten, and the front. */
-  drawDomain(position) {
+  drawDomain({ bite, position }) {
     const { context, view, colours, replay } = this;
+    const hasFront = position <= replay.count;
     view.inUnits(context, () => {
       context.fillStyle = colours.remaining;
       context.fill(this.domain, "evenodd");
       context.clip(this.domain, "evenodd");
-      const bite = biteAt(replay, position);
       if (bite >= 0) this.fillBite(bite);
-      this.copy("rim");
+      if (hasFront) this.copy("rim");
       this.copy("bitten");
       context.fillStyle = colours.corner;
       context.fill(this.corners);
@@ -89,7 +90,7 @@ class Picture {
       context.lineWidth = WIDTH.boundary * this.ratio * pixel;
       context.stroke(this.segments);
     });
-    this.copy("edge");
+    if (hasFront) this.copy("edge");
   }
 
   /** Copies a layer, which may have been made for another view. */
@@ -133,18 +134,38 @@ class Picture {
   }
 
   /** The front vertices that wait; hollow those that the bite at hand takes. */
-  drawWaiting(bite) {
-    if (bite < 0) return;
-    const { colours, replay, view } = this;
-    const { x, y, gone, circles } = replay.vertices;
-    for (const serial of waitingBefore(replay, bite)) {
-      const [screenX, screenY] = [view.x(x[serial]), view.y(y[serial])];
-      if (screenX < 0 || screenY < 0 || screenX > this.canvas.width || screenY > this.canvas.height) continue;
-      const room = (view.scale * replay.radius[circles[2 * serial]]) / this.ratio;
-      const size = Math.max(0.8, Math.min(3.2, 0.2 * room));
-      const isTaken = gone[serial] === bite;
-      this.dot(x[serial], y[serial], size, isTaken ? colours.page : colours.front, isTaken ? colours.gone : undefined);
+  drawWaiting(moment) {
+    const { context, colours, replay } = this;
+    const { x, y, gone } = replay.vertices;
+    context.fillStyle = colours.front;
+    const stay = moment.waiting.filter((serial) => gone[serial] !== moment.bite);
+    for (let start = 0; start < stay.length; start += DOTS_A_PATH) {
+      context.beginPath();
+      for (const serial of stay.slice(start, start + DOTS_A_PATH)) this.addDot(serial);
+      context.fill();
     }
+    for (const serial of takenAt(replay, moment)) this.dot(x[serial], y[serial], this.dotSize(serial), colours.page, colours.gone);
+  }
+
+  /** Adds a front vertex to the path, if it can be seen: a square where no one would see that it is none. */
+  addDot(serial) {
+    const { context, view, canvas, ratio } = this;
+    const [x, y] = [view.x(this.replay.vertices.x[serial]), view.y(this.replay.vertices.y[serial])];
+    if (x < 0 || y < 0 || x > canvas.width || y > canvas.height) return;
+    const size = this.dotSize(serial) * ratio;
+    if (size < SQUARE) {
+      context.rect(x - size, y - size, 2 * size, 2 * size);
+    } else {
+      context.moveTo(x + size, y);
+      context.arc(x, y, size, 0, 2 * Math.PI);
+    }
+  }
+
+  /** The radius of a front vertex in pixels of the page: smaller where circles are small. */
+  dotSize(serial) {
+    const { replay, view, ratio } = this;
+    const room = (view.scale * replay.radius[replay.vertices.circles[2 * serial]]) / ratio;
+    return Math.max(0.8, Math.min(3.2, 0.2 * room));
   }
 
   /** The bite at hand, with the points of its label. */
@@ -166,11 +187,11 @@ class Picture {
     for (const parent of parents) this.outline(parent, colours.parent, 1.4);
     const names = label.parents.map((parent, index) => ({ parent, name: `p${index ? "₂" : "₁"}` }));
     const side = this.sideOf(label.segment, bite);
-    for (const { parent, name } of names.filter(({ parent: known }) => known >= 0)) {
-      this.dot(replay.x[parent], replay.y[parent], 3, colours.parent, colours.page);
-      this.write(name, replay.x[parent], replay.y[parent], side, colours.parent);
-    }
     const room = (view.scale * replay.radius[bite]) / this.ratio;
+    for (const { parent, name } of names.filter(({ parent: known }) => known >= 0)) {
+      this.dot(replay.x[parent], replay.y[parent], Math.min(3, 0.25 * room), colours.parent, colours.page);
+      this.write(name, replay.x[parent], replay.y[parent], side, colours.parent, room);
+    }
     this.write("q", replay.x[bite], replay.y[bite], { x: -side.x, y: -side.y }, colours.chosen, room);
     label.middles.forEach((middle, index) => this.drawMiddle(middle, index, bite, side, room));
   }
@@ -196,7 +217,7 @@ class Picture {
   }
 
   /** Writes a name beside a place, if its circle has room. */
-  write(text, x, y, way, colour, room = Infinity) {
+  write(text, x, y, way, colour, room) {
     if (room < 12) return;
     const { context, view, ratio, colours } = this;
     const away = 15 * ratio;
@@ -217,30 +238,40 @@ class Picture {
     this.dot(x[serial], y[serial], 6, undefined, this.colours.ink);
   }
 
-  /** The triangulation over what has been bitten: the paler, the nearer to equilateral. */
+  /** The triangulation over what has been bitten, in another colour where an angle is under 30°. */
   drawMesh() {
-    const { context, view, colours, replay } = this;
-    this.angles ??= replay.triangles.map((triangle) => smallestAngle(replay, triangle));
+    const { context, view, colours } = this;
+    this.mesh ??= this.meshPaths();
     view.inUnits(context, (pixel) => {
       context.globalAlpha = 0.85;
-      this.fillTriangles();
+      context.fillStyle = colours["triangle-good"];
+      context.fill(this.mesh.good);
+      context.fillStyle = colours["triangle-bad"];
+      context.fill(this.mesh.bad);
       context.globalAlpha = 1;
       context.strokeStyle = colours.triangle;
-      context.lineWidth = WIDTH.triangle * this.ratio * pixel;
+      context.lineWidth = this.triangleLine() * this.ratio * pixel;
       context.lineJoin = "round";
-      context.stroke(this.mesh);
+      context.stroke(this.mesh.all);
     });
   }
 
-  /** Fills triangles in two colours: those under 30° and the others. */
-  fillTriangles() {
-    const { context, colours, replay } = this;
-    const isUnder = (index) => this.angles[index] < 30;
-    const good = replay.triangles.filter((_, index) => !isUnder(index));
-    const bad = replay.triangles.filter((_, index) => isUnder(index));
-    context.fillStyle = colours["triangle-good"];
-    context.fill(polygonsPath(replay.points, good));
-    context.fillStyle = colours["triangle-bad"];
-    context.fill(polygonsPath(replay.points, bad));
+  /** All triangles as a path in units, and those with and without an angle under 30°. */
+  meshPaths() {
+    const { points, triangles } = this.replay;
+    const isBad = triangles.map((triangle) => smallestAngle(this.replay, triangle) < 30);
+    return {
+      all: polygonsPath(points, triangles),
+      good: polygonsPath(points, triangles.filter((_, index) => !isBad[index])),
+      bad: polygonsPath(points, triangles.filter((_, index) => isBad[index])),
+    };
+  }
+
+  /** The width of the lines between triangles in pixels of the page: thinner where they would be all there is to see. */
+  triangleLine() {
+    const { replay, view, ratio } = this;
+    const [width, height] = replay.frame.size;
+    const edge = (view.scale * Math.sqrt((width * height) / replay.triangles.length)) / ratio;
+    return Math.max(0.2, Math.min(WIDTH.triangle, 0.06 * edge));
   }
 }

@@ -95,6 +95,7 @@ class Layers {
     this.contexts = {};
     const blank = () => document.createElement("canvas").getContext("2d");
     for (const name of ["rim", "bitten", "edge", "marks"]) this.contexts[name] = blank();
+    this.uncut = blank();
     this.scratch = blank();
     /** How many bites they show; −1 before they show anything. */
     this.done = -1;
@@ -102,34 +103,40 @@ class Layers {
 
   /** Throws away what is there. */
   reset(width, height, ratio, view, colours) {
-    for (const context of Object.values(this.contexts)) {
+    for (const context of [...Object.values(this.contexts), this.uncut]) {
       context.canvas.width = width;
       context.canvas.height = height;
     }
     this.scratch.canvas.width = this.scratch.canvas.height = 1;
     Object.assign(this, { width, height, ratio, view, colours, done: -1 });
+    this.drawFirstFront();
   }
 
   /** Makes them show the first `bites`. */
   show(bites) {
     while (this.done > bites && this.done - bites <= FEW && this.take(this.done - 1)) this.done -= 1;
     if (this.done > bites || this.done < 0) {
-      for (const [name, context] of Object.entries(this.contexts)) this.begin(name, context, this.view);
+      for (const [name, context] of Object.entries(this.contexts)) this.begin(name, context);
       this.done = 0;
     }
     for (; this.done < bites; this.done += 1) this.add(this.done);
   }
 
-  /** A layer before the first bite. */
-  begin(name, context, view) {
-    context.clearRect(0, 0, context.canvas.width, context.canvas.height);
-    if (name !== "edge") return;
-    view.inUnits(context, (pixel) => {
-      context.strokeStyle = this.colours.front;
-      context.lineCap = "round";
-      context.lineWidth = WIDTH.front * this.ratio * pixel;
-      context.stroke(this.firstFront);
+  /** Draws the segments of the first front, of which layers take copies. */
+  drawFirstFront() {
+    const { uncut, view } = this;
+    view.inUnits(uncut, (pixel) => {
+      uncut.strokeStyle = this.colours.front;
+      uncut.lineCap = "round";
+      uncut.lineWidth = WIDTH.front * this.ratio * pixel;
+      uncut.stroke(this.firstFront);
     });
+  }
+
+  /** A layer before the first bite, or the part of it from (left, top) on. */
+  begin(name, context, left = 0, top = 0) {
+    context.clearRect(0, 0, context.canvas.width, context.canvas.height);
+    if (name === "edge") context.drawImage(this.uncut.canvas, -left, -top);
   }
 
   /**
@@ -152,7 +159,7 @@ class Layers {
     const area = [right - left, bottom - top];
     fitCanvas(this.scratch.canvas, room.right - room.left, room.bottom - room.top);
     for (const [name, context] of Object.entries(this.contexts)) {
-      this.begin(name, this.scratch, view);
+      this.begin(name, this.scratch, room.left, room.top);
       for (const other of near) this.addTo(name, this.scratch, other, view);
       context.clearRect(left, top, ...area);
       context.drawImage(this.scratch.canvas, left - room.left, top - room.top, ...area, left, top, ...area);
@@ -198,7 +205,9 @@ class Layers {
 
   fill(name, context, x, y, radius) {
     const { colours, ratio } = this;
-    circlePath(context, x, y, name === "rim" ? radius + WIDTH.front * ratio : radius);
+    // Lines are erased to their full width: circles may be smaller than that.
+    const more = { rim: WIDTH.front, bitten: 0, edge: 0.5 * WIDTH.front }[name];
+    circlePath(context, x, y, radius + more * ratio);
     context.globalCompositeOperation = name === "edge" ? "destination-out" : "source-over";
     context.fillStyle = name === "rim" ? colours.front : colours.bitten;
     context.fill();

@@ -72,23 +72,19 @@ class Panel {
     }
   }
 
-  show() {
+  show(moment) {
     const { replay, player, cells } = this;
-    const { position } = player;
-    const bite = biteAt(replay, position);
-    const step = stepAt(replay, position);
     for (const button of element("steps").querySelectorAll("button")) {
-      if (Number(button.dataset.step) === step) button.setAttribute("aria-current", "step");
+      if (Number(button.dataset.step) === moment.step) button.setAttribute("aria-current", "step");
       else button.removeAttribute("aria-current");
     }
-    const { title, text } = explain(replay, position);
+    const { title, text } = explain(replay, moment);
     element("why").setAttribute("aria-live", player.isPlaying ? "off" : "polite");
     element("why-title").textContent = title;
     tell(element("why-text"), text);
-    const counts = countKinds(replay, position);
-    for (const letter of this.kinds) cells[letter].textContent = counts[letter].toLocaleString("en");
-    cells.waiting.textContent = bite < 0 ? "0" : waitingBefore(replay, bite).length.toLocaleString("en");
-    this.showControls(position, STEPS[step].name, title);
+    for (const letter of this.kinds) cells[letter].textContent = countOf(replay, letter, moment.position).toLocaleString("en");
+    cells.waiting.textContent = moment.waiting.length.toLocaleString("en");
+    this.showControls(moment.position, STEPS[moment.step].name, title);
   }
 
   showControls(position, step, title) {

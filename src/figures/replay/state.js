@@ -92,6 +92,18 @@ function shadowsByBite(shadows) {
   return byBite;
 }
 
+/** For each of KINDS, how many there are among the first k bites. */
+function countKinds(reasons) {
+  const counts = {};
+  for (const letter of Object.keys(KINDS)) {
+    counts[letter] = new Int32Array(reasons.length + 1);
+    for (let bite = 0; bite < reasons.length; bite += 1) {
+      counts[letter][bite + 1] = counts[letter][bite] + (reasons[bite] === letter ? 1 : 0);
+    }
+  }
+  return counts;
+}
+
 /** A recording as the page carries it, made ready for questions. */
 function decode(recording) {
   const { bites } = recording;
@@ -105,6 +117,7 @@ function decode(recording) {
     triangles: recording.triangles,
     count: bites.reasons.length,
     reasons: bites.reasons,
+    counts: countKinds(bites.reasons),
     x: pick(points.x),
     y: pick(points.y),
     radius: Float64Array.from(bites.radii),
@@ -168,9 +181,25 @@ function waitingBefore(replay, bite) {
   return waiting;
 }
 
-/** The front vertices a bite takes away, the one it is centred on included. */
-function takenBy(replay, bite) {
-  return waitingBefore(replay, bite).filter((serial) => replay.vertices.gone[serial] === bite);
+/** What is so at a position, found once for all who ask. */
+function momentAt(replay, position) {
+  const bite = biteAt(replay, position);
+  return {
+    position,
+    /** The bite being bitten, −1 where there is none. */
+    bite,
+    /** How many have been bitten before. */
+    bitten: bittenAt(replay, position),
+    /** Which of STEPS this is. */
+    step: stepAt(replay, position),
+    /** The front vertices that wait. */
+    waiting: bite < 0 ? [] : waitingBefore(replay, bite),
+  };
+}
+
+/** The front vertices that the bite at hand takes away, the one it is centred on included. */
+function takenAt(replay, { bite, waiting }) {
+  return waiting.filter((serial) => replay.vertices.gone[serial] === bite);
 }
 
 /** How many front vertices a bite makes. */
@@ -197,12 +226,9 @@ function nextInLine(replay, serial, waiting) {
   return next;
 }
 
-/** How many bites of each of KINDS have been made when the bite at a position is done. */
-function countKinds(replay, position) {
-  const counts = Object.fromEntries(Object.keys(KINDS).map((letter) => [letter, 0]));
-  const done = Math.min(position, replay.count);
-  for (let bite = 0; bite < done; bite += 1) counts[replay.reasons[bite]] += 1;
-  return counts;
+/** How many bites of a kind have been made when the bite at a position is done. */
+function countOf(replay, letter, position) {
+  return replay.counts[letter][Math.min(position, replay.count)];
 }
 
 /** The smallest angle of a triangle of the mesh, in degrees. */

@@ -81,7 +81,7 @@ function cutCornerInWords() {
   return "An angle under 90°, which the theorems exclude, is cut off first (§5.1): this point of the cut is bitten instead of the corner.";
 }
 
-function progressiveInWords(replay, bite) {
+function progressiveInWords(replay, { bite }) {
   const { segment, parents } = replay.labels.get(bite);
   return (
     `q, on segment ${segment + 1}, is where ${circleInWords(parents[0], "p₁")} leaves it. ` +
@@ -89,7 +89,7 @@ function progressiveInWords(replay, bite) {
   );
 }
 
-function middleInWords(replay, bite) {
+function middleInWords(replay, { bite }) {
   const { segment, parents, middles } = replay.labels.get(bite);
   const [first, second] = [circleInWords(parents[0], "p₁"), circleInWords(parents[1], "p₂")];
   const gap = Math.hypot(middles[0].x - middles[1].x, middles[0].y - middles[1].y);
@@ -111,13 +111,13 @@ function turnInWords(replay, serial, waiting) {
   return `${own}${rank ? `, with ${rank}` : ""}. ${order}`;
 }
 
-function frontVertexInWords(replay, bite) {
+function frontVertexInWords(replay, moment) {
+  const { bite, waiting } = moment;
   const serial = replay.chosen[bite];
-  const waiting = waitingBefore(replay, bite);
   const { since, circles } = replay.vertices;
   const next = nextInLine(replay, serial, waiting);
   const nextRank = next < 0 ? "" : rankInWords(replay, next);
-  const others = takenBy(replay, bite).length - 1;
+  const others = takenAt(replay, moment).length - 1;
   return [
     turnInWords(replay, serial, waiting),
     nextRank && `Next of those that stay: vertex ${next + 1}, with ${nextRank}.`,
@@ -156,15 +156,15 @@ const REASONS = {
 };
 
 /**
- * What happens at a position, and why.
+ * What happens at a moment, and why.
  * @returns {{title: string, text: string}}
  */
-function explain(replay, position) {
-  const bite = biteAt(replay, position);
+function explain(replay, moment) {
+  const { bite, position } = moment;
   if (bite >= 0) {
     const { title, text } = REASONS[replay.reasons[bite]];
     const radius = `Radius c_b f = ${lengthOf(replay, replay.radius[bite])}.`;
-    return { title: `Bite ${bite + 1}: ${title}`, text: `${text(replay, bite)}\n${radius}` };
+    return { title: `Bite ${bite + 1}: ${title}`, text: `${text(replay, moment)}\n${radius}` };
   }
   return position > replay.count
     ? { title: "The mesh", text: triangulationInWords(replay) }
