@@ -81,12 +81,6 @@ function widen(box, other) {
   box.bottom = Math.max(box.bottom, other.bottom);
 }
 
-/** Makes a canvas at least so large. */
-function fitCanvas(canvas, width, height) {
-  if (canvas.width < width) canvas.width = width;
-  if (canvas.height < height) canvas.height = height;
-}
-
 /** What has been bitten, in layers as large as the canvas. */
 class Layers {
   constructor(replay) {
@@ -107,15 +101,15 @@ class Layers {
       context.canvas.width = width;
       context.canvas.height = height;
     }
-    this.scratch.canvas.width = this.scratch.canvas.height = 1;
     Object.assign(this, { width, height, ratio, view, colours, done: -1 });
     this.drawFirstFront();
   }
 
   /** Makes them show the first `bites`. */
   show(bites) {
-    while (this.done > bites && this.done - bites <= FEW && this.take(this.done - 1)) this.done -= 1;
-    if (this.done > bites || this.done < 0) {
+    if (this.done > bites && this.done - bites <= FEW) {
+      while (this.done > bites) this.take(this.done - 1);
+    } else if (this.done > bites || this.done < 0) {
       for (const [name, context] of Object.entries(this.contexts)) this.begin(name, context);
       this.done = 0;
     }
@@ -140,31 +134,41 @@ class Layers {
   }
 
   /**
-   * Takes the last bite back: its box is drawn again without it. That is done on a small canvas with room for whole circles,
-   * since a circle drawn through a clip has other pixels along its edge than it had before.
-   * @returns {boolean} whether there was room
+   * Takes the last bite back: its box is drawn again without it. That is done on a small canvas with room for what is to be seen
+   * of whole circles, since a circle drawn through a clip has other pixels along its edge than it had before.
    */
   take(bite) {
-    const { left, right, top, bottom } = this.boxOf(bite);
+    this.done = bite;
+    const { left, right, top, bottom } = this.seen(this.boxOf(bite));
+    if (left >= right || top >= bottom) return;
     const near = [];
     const room = { left, right, top, bottom };
     for (let other = 0; other < bite; other += 1) {
       if (this.meets(other, { left, right, top, bottom })) {
         near.push(other);
-        widen(room, this.boxOf(other));
+        widen(room, this.seen(this.boxOf(other)));
       }
     }
-    if (room.right - room.left > 2 * this.width || room.bottom - room.top > 2 * this.height) return false;
     const view = this.view.moved(-room.left, -room.top);
     const area = [right - left, bottom - top];
-    fitCanvas(this.scratch.canvas, room.right - room.left, room.bottom - room.top);
+    this.scratch.canvas.width = room.right - room.left;
+    this.scratch.canvas.height = room.bottom - room.top;
     for (const [name, context] of Object.entries(this.contexts)) {
       this.begin(name, this.scratch, room.left, room.top);
       for (const other of near) this.addTo(name, this.scratch, other, view);
       context.clearRect(left, top, ...area);
       context.drawImage(this.scratch.canvas, left - room.left, top - room.top, ...area, left, top, ...area);
     }
-    return true;
+  }
+
+  /** The part of a box that is on the canvas. */
+  seen({ left, right, top, bottom }) {
+    return {
+      left: Math.max(0, left),
+      right: Math.min(this.width, right),
+      top: Math.max(0, top),
+      bottom: Math.min(this.height, bottom),
+    };
   }
 
   /** The whole pixels that a bite may have touched. */

@@ -10,6 +10,9 @@
 //!   effects), `words.js` (that in words), `layers.js` and `drawing.js` (the picture), `pointer.js`, `panel.js` and
 //!   `controls.js` are joined to one file that needs no other.
 
+// The parts are private; their links work in `cargo doc --document-private-items`.
+#![allow(rustdoc::private_intra_doc_links)]
+
 mod labels;
 mod outline;
 mod record;

@@ -142,6 +142,7 @@ function triangulationInWords(replay) {
   return (
     "Nothing is left to bite: the front is empty, and the circles cover the domain. The Delaunay triangulation of their centres is the mesh: " +
     `${some(replay.triangles.length, "triangle")} over ${some(replay.points.x.length, "vertex")}. ` +
+    (replay.outline.corners.length ? "Corners that were cut off are back. " : "") +
     (angle === null ? "" : `Its smallest angle is ${angle.toFixed(2)}°, away from input angles under 60°; Theorem 6.8 has asin(1/2 − t) = ${bound.toFixed(2)}°.`)
   );
 }
