@@ -35,7 +35,10 @@ pub(super) fn rings(domain: &Domain) -> Vec<Vec<u32>> {
 
 /// Whether each input vertex was cut off instead of bitten.
 pub(super) fn cut_vertices(domain: &Domain, bites: &[Bite]) -> Vec<bool> {
-    let mut bitten = bites.iter().filter(|bite| bite.reason == Reason::InputVertex).peekable();
+    let mut bitten = bites
+        .iter()
+        .filter(|bite| bite.reason == Reason::InputVertex)
+        .peekable();
     let is_next = |vertex: &DVec2| bitten.next_if(|bite| bite.centre == *vertex).is_some();
     // They are bitten in order.
     let is_bitten: Vec<bool> = domain.vertices().iter().map(is_next).collect();
@@ -84,7 +87,9 @@ pub(super) fn shadows(domain: &Domain, bites: &[Bite]) -> Vec<[u32; 3]> {
         .collect();
     let mut shadows = Vec::new();
     for (k, bite) in bites.iter().enumerate() {
-        let seen = notches.iter().filter_map(|(v, wedge)| far_side(domain, bite, *v, wedge));
+        let seen = notches
+            .iter()
+            .filter_map(|(v, wedge)| far_side(domain, bite, *v, wedge));
         shadows.extend(seen.map(|[vertex, end]| [k as u32, vertex, end]));
     }
     shadows

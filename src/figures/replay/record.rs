@@ -272,7 +272,11 @@ impl Queue {
             points: frame.places(all.iter().map(|one| one.point)),
             gone,
             circles: all.iter().flat_map(|one| one.circles).collect(),
-            ranks: if ranks.iter().all(|&rank| rank == 0) { Vec::new() } else { ranks },
+            ranks: if ranks.iter().all(|&rank| rank == 0) {
+                Vec::new()
+            } else {
+                ranks
+            },
             turns: turns(&all, order),
         }
     }
