@@ -6,6 +6,7 @@
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
+mod asked;
 mod battery;
 mod check;
 mod compare;

@@ -11,6 +11,7 @@ mod compare;
 #[cfg(unix)]
 mod disk;
 mod fingerprints;
+mod replay;
 mod sweep;
 
 fn biting(folder: &Path) -> Command {

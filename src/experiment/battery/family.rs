@@ -71,12 +71,12 @@ impl Case {
 }
 
 /// A parameter's value as the command line takes it.
-fn plain(value: &serde_json::Value) -> String {
+pub(crate) fn plain(value: &serde_json::Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
 /// Quoted where a shell would take it for more than a word.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let is_word = |c: char| c.is_ascii_alphanumeric() || "-_.,:=/".contains(c);
     if text.chars().all(is_word) {
         text.to_owned()
