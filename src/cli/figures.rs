@@ -16,12 +16,15 @@ pub struct Arguments {
     /// Folder to write to
     #[arg(long, value_name = "FOLDER", default_value = "paper")]
     out: PathBuf,
+    /// Folder of results that the figures of the study are drawn from
+    #[arg(long, value_name = "FOLDER", default_value = "results", conflicts_with = "replay")]
+    results: PathBuf,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let written = match &arguments.replay {
         Some(domain) => figures::replay::write(&arguments.out, domain).map(|path| vec![path]),
-        None => figures::write(&arguments.out, arguments.only.as_deref()),
+        None => figures::write(&arguments.out, &arguments.results, arguments.only.as_deref()),
     };
     for path in written.map_err(Failure::input)? {
         say(format_args!("wrote {}", path.display()));
