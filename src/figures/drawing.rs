@@ -103,6 +103,20 @@ pub(super) fn around(discs: &[Disc], margin: f64) -> Rect {
     }
 }
 
+/// What to show of circles on a level segment with the domain above: what of them is inside, and room for names below.
+pub(super) fn above(domain: &Domain, discs: &[Disc], level: f64) -> Rect {
+    let arcs = discs.iter().flat_map(|disc| front::in_domain(domain, disc));
+    let points = arcs
+        .flat_map(|arc| arc.points(64))
+        .chain(discs.iter().map(|disc| disc.centre));
+    let tight = Rect::around(points);
+    let width = tight.size().x;
+    Rect {
+        min: DVec2::new(tight.min.x - 0.03 * width, level - 0.07 * width),
+        max: tight.max + 0.03 * width,
+    }
+}
+
 /// The domain as ground: its inside tinted, its segments drawn.
 pub(super) fn ground(scene: &mut Scene, run: &Run, fill: Fill) {
     for corners in &run.ground {
@@ -118,10 +132,9 @@ pub(super) fn segments(scene: &mut Scene, domain: &Domain) {
     }
 }
 
-/// A circle, pale where it lies outside the domain.
+/// What of a circle is inside the domain.
 pub(super) fn circle(scene: &mut Scene, domain: &Domain, disc: &Disc, pen: Pen) {
-    scene.arcs(front::in_domain(domain, disc, false), Pen::Pale);
-    scene.arcs(front::in_domain(domain, disc, true), pen);
+    scene.arcs(front::in_domain(domain, disc), pen);
 }
 
 /// The edges of the mesh that reach into the window.

@@ -12,11 +12,11 @@ use crate::meshers::{Bite, Reason};
 
 /// The domain is searched for among these random polygons.
 const VERTICES: [usize; 3] = [7, 8, 9];
-const SEEDS: u64 = 600;
+const SEEDS: u64 = 1000;
 
 /// Circles large enough to be seen.
 const T: f64 = 0.25;
-const C_B: f64 = 0.75;
+const C_B: f64 = 0.6;
 
 /// The scheme, step by step.
 pub(super) struct Figure1 {
@@ -146,7 +146,7 @@ impl Figure1 {
         }
         for (range, pen) in [(old.clone(), Pen::Pale), (new.clone(), Pen::Biting)] {
             for disc in range.map(|k| self.run.disc(k)) {
-                scene.arcs(front::in_domain(domain, &disc, true), pen);
+                scene.arcs(front::in_domain(domain, &disc), pen);
             }
         }
         super::drawing::segments(&mut scene, domain);
@@ -184,15 +184,13 @@ impl Figure1 {
         let circles = discs.iter().map(|disc| Numbers::default().disc("circle", disc).into());
         let counts: Vec<String> = self.panels.iter().map(|panel| panel.bitten.to_string()).collect();
         let caption = format!(
-            "The biting scheme, step by step, on {}: (a) the initial PSLG, whose boundary is the front; (b) bites at the vertices \
+            "The biting scheme, step by step, on a polygon: (a) the initial PSLG, whose boundary is the front; (b) bites at the vertices \
              of the polygon only; (c) the first bite at a point that is no vertex; (d) a layer of the boundary: no piece of it is \
              left; (e) the first bite in the interior; (f) a layer of the interior: every bite at a vertex of the front of (d) \
              that was still there in its turn.\n\nThick orange: the front, segments and arcs, computed from the circles anew for \
              each panel. Biscuit: what is left; grey: eaten before; blue: eaten since the panel before, with the circles and \
-             centres (dots) of these bites. Bites so far: {}.\n\nDrawn from {}, order of bites `fifo`, so that layers come one after \
-             another. The polygon is, of {} random ones of {} to {} vertices that have a notch and no angle under 90°, the one whose \
+             centres (dots) of these bites. Bites so far: {}.\n\nDrawn from {}; in this order layers come one after another. The polygon is, of {} random ones of {} to {} vertices that have a notch and no angle under 90°, the one whose \
              shortest side is longest for its area ({} of its square root).",
-            "a polygon",
             counts.join(", "),
             self.run.told(),
             SEEDS * VERTICES.len() as u64,

@@ -48,9 +48,9 @@ impl Figure2<'_> {
 
     fn scene(&self) -> Scene {
         let Middle { p1, p2, q1, q2, q, .. } = &self.found;
-        let window = drawing::around(&[self.p0, *p1, *p2, *q1, *q2, *q], 0.02);
-        let mut scene = Scene::new("", window);
         let domain = &self.run.domain;
+        let window = drawing::above(domain, &[self.p0, *p1, *p2, *q1, *q2, *q], q.centre.y);
+        let mut scene = Scene::new("", window);
         drawing::ground(&mut scene, self.run, Fill::Domain);
         for (disc, pen) in [
             (q1, Pen::Tried),
@@ -99,7 +99,7 @@ impl Figure2<'_> {
              progressive circle at q₁ (dashed) meets B(p₂, c_b f(p₂)), and the circle at q₂ (dashed) meets B(p₁, c_b f(p₁)), so \
              that neither is bitten.\n\n\
              c_b f is {} at p₀, {} at p₁, {} at q₁, {} at q, {} at q₂, {} at p₂; ‖q₁q₂‖ = {}, less than each of c_b f(q₁) and c_b \
-             f(q₂). Below the thick line is outside the domain; circles are pale there.\n\nDrawn from {}. Of {} such bites in all runs \
+             f(q₂). Thick: the boundary, with the domain above it; of circles, what is inside.\n\nDrawn from {}. Of {} such bites in all runs \
              searched, it is the one with the widest gap q₁q₂ for its circle and the most different circles.",
             short(self.p0.radius),
             short(p1.radius),

@@ -95,8 +95,9 @@ impl Figure3<'_> {
         (self.other.radius / self.x.radius - 1.0).abs() + 0.3 * lens / self.x.radius
     }
 
-    fn scene(&self, title: &str) -> Scene {
-        let mut scene = Scene::new(title, drawing::around(&[self.extended], 0.03));
+    /// A square window around a circle.
+    fn scene(&self, title: &str, around: Disc, margin: f64) -> Scene {
+        let mut scene = Scene::new(title, drawing::around(&[around], margin));
         for corners in &self.run.ground {
             scene.area(*corners, Fill::Domain);
         }
@@ -104,7 +105,7 @@ impl Figure3<'_> {
     }
 
     fn packing_and_biting(&self) -> Scene {
-        let mut scene = self.scene("(a) the biting and the packing circle");
+        let mut scene = self.scene("(a) the biting and the packing circle", self.x, 0.35);
         let share = self.packing.radius / self.x.radius;
         let others = self.run.bites.iter().filter(|bite| bite.centre != self.x.centre);
         for bite in others {
@@ -124,7 +125,12 @@ impl Figure3<'_> {
     }
 
     fn covered_twice(&self) -> Scene {
-        let mut scene = self.scene("(b) a point in two biting circles");
+        let both = drawing::around(&[self.x, self.other], 0.0);
+        let both = Disc {
+            centre: both.centre(),
+            radius: 0.5 * both.size().max_element(),
+        };
+        let mut scene = self.scene("(b) a point in two biting circles", both, 0.12);
         let named = [self.x.centre, self.other.centre];
         let others = self.run.bites.iter().filter(|bite| !named.contains(&bite.centre));
         for bite in others {
@@ -144,7 +150,7 @@ impl Figure3<'_> {
     }
 
     fn extended(&self) -> Scene {
-        let mut scene = self.scene("(c) the extended circle");
+        let mut scene = self.scene("(c) the extended circle", self.extended, 0.03);
         scene.circle(self.x, Pen::Biting);
         scene.circle(self.extended, Pen::Extended);
         scene.circle(self.nearest, Pen::Newest);
@@ -153,7 +159,6 @@ impl Figure3<'_> {
         scene.named_point(self.nearest.centre, Mark::Newest, "z");
         let away = (self.x.centre - self.nearest.centre).to_angle().to_degrees();
         drawing::radius(&mut scene, &self.extended, away + 20.0, "c_e f(x)");
-        drawing::radius(&mut scene, &self.x, away - 50.0, "c_b f(x)");
         scene
     }
 

@@ -96,16 +96,21 @@ fn obtuse(run: &Run) -> impl Iterator<Item = Obtuse> + '_ {
     })
 }
 
+/// How far corners are pulled towards the triangle's middle before they are looked at.
+const PULLED_IN: f64 = 1e-6;
+
 /// The segment that hides some of a triangle from its circumcentre, if there is one. What hides it has a part within the triangle
 /// and the circumcentre's hull, outside the triangle: so it crosses a line of sight to a corner, or has an end in there.
 fn cut_by(run: &Run, corners: [DVec2; 3], centre: DVec2) -> Option<usize> {
-    let [a, b, c] = corners;
+    let [a, b, _] = corners;
     let inner = corners.iter().sum::<DVec2>() / 3.0;
+    // Corners on a segment lie beside it by rounding: look at points a little further in.
+    let seen = corners.map(|corner| corner.lerp(inner, PULLED_IN));
     let holds = |p: DVec2| orient2d(a, b, p) < 0.0 && orient2d(b, centre, p) < 0.0 && orient2d(centre, a, p) < 0.0;
     let hides = |segment: &usize| {
         let [p, q] = run.domain.ends(*segment);
         let crosses = |corner: DVec2| segments_meet(centre, corner, p, q) == Meeting::Cross;
-        [a, b, c, inner].into_iter().any(crosses) || holds(p) || holds(q)
+        seen.into_iter().any(crosses) || holds(p) || holds(q)
     };
     (0..run.domain.segments().len()).find(hides)
 }

@@ -55,7 +55,7 @@ pub(super) fn lemma_6_4(t: f64) -> f64 {
 /// Circles, the triangle of their centres and r, and h_r.
 fn scene(run: &Run, title: &str, circles: &[(&Disc, Pen)], [p1, q]: [&Disc; 2], r: DVec2) -> Scene {
     let discs: Vec<Disc> = circles.iter().map(|(disc, _)| **disc).collect();
-    let mut scene = Scene::new(title, drawing::around(&discs, 0.03));
+    let mut scene = Scene::new(title, drawing::above(&run.domain, &discs, q.centre.y));
     drawing::ground(&mut scene, run, Fill::Domain);
     for (disc, pen) in circles {
         drawing::circle(&mut scene, &run.domain, disc, *pen);
@@ -103,12 +103,17 @@ impl Figure5<'_> {
     /// Picture, caption and numbers.
     pub fn drawing(&self) -> Drawing<'static> {
         let ((first, a), (second, b)) = (&self.progressive, &self.middle);
+        let is_attained = a.h_r / a.p1.radius < lemma_6_3(first.t) * (1.0 + 1e-6);
+        let attained = match is_attained {
+            true => ", which is attained: f falls from p₁ to q as steeply as it may",
+            false => "",
+        };
         let caption = format!(
             "Biting circles on the boundary. (a) The centre q of the new circle is labelled B(p₁): it lies on the circle of p₁, which \
              was chosen before it. (b) The centre q is labelled M(p₁, p₂): it is the middle of q₁q₂, where the circles of p₁ and p₂ \
              leave the boundary. In both, r is where the circles of p₁ and q meet inside the domain, and h_r is its distance to the \
              boundary.\n\n\
-             (a) h_r / (c_b f(p₁)) = {}, and Lemma 6.3 promises at least {} for t = {}. (b) h_r / (c_b f(p₁)) = {}, and Lemma 6.4 \
+             (a) h_r / (c_b f(p₁)) = {}, and Lemma 6.3 promises at least {} for t = {}{attained}. (b) h_r / (c_b f(p₁)) = {}, and Lemma 6.4 \
              promises at least {} for t = {}.\n\nDrawn (a) from {}, of {} such bites the one whose circles differ most; (b) from {}, of \
              {} such bites the one with the widest gap q₁q₂ for its circle, circles that differ preferred.",
             short(a.h_r / a.p1.radius),

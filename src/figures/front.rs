@@ -56,11 +56,9 @@ pub(super) fn pieces(domain: &Domain, discs: &[Disc]) -> Vec<[DVec2; 2]> {
     (0..domain.segments().len()).flat_map(own).collect()
 }
 
-/// The arcs of a circle inside the domain (`wanted`), or outside it.
-pub(super) fn in_domain(domain: &Domain, disc: &Disc, wanted: bool) -> Vec<Arc> {
-    parts(disc, cuts_by_domain(domain, disc), |point| {
-        domain.contains(point) == wanted
-    })
+/// The arcs of a circle inside the domain.
+pub(super) fn in_domain(domain: &Domain, disc: &Disc) -> Vec<Arc> {
+    parts(disc, cuts_by_domain(domain, disc), |point| domain.contains(point))
 }
 
 /// Where two circles meet: the points of both.
@@ -174,8 +172,8 @@ mod tests {
         let (large, small) = (disc(0.5, 0.5, 0.3), disc(0.5, 0.5, 0.1));
         assert_eq!(arcs(&square, &[large]), [(0, Arc::whole(large))]);
         assert_eq!(arcs(&square, &[large, small]), [(0, Arc::whole(large))]);
-        assert_eq!(in_domain(&square, &large, true).len(), 1);
-        assert!(in_domain(&square, &large, false).is_empty());
+        assert_eq!(in_domain(&square, &large), [Arc::whole(large)]);
+        assert!(in_domain(&square, &disc(0.5, 0.5, 2.0)).is_empty());
     }
 
     #[test]

@@ -29,15 +29,20 @@ pub(super) struct Asked {
 impl Asked {
     /// The command that makes the same mesh.
     pub fn command(&self) -> String {
-        let order = serde_json::to_value(self.order).unwrap_or_default();
         format!(
             "cargo run --release -- mesh {} --spacing lfs --t {} --c-b {} --param order={} --param corners=bite \
              --param head_on=leave --out mesh.svg",
             self.domain,
             self.t,
             self.c_b,
-            order.as_str().unwrap_or_default()
+            self.order()
         )
+    }
+
+    /// The name of the order of bites.
+    fn order(&self) -> String {
+        let name = serde_json::to_value(self.order).unwrap_or_default();
+        name.as_str().unwrap_or_default().to_owned()
     }
 }
 
@@ -55,14 +60,19 @@ pub(super) struct Run {
 }
 
 /// Larger runs have nothing that smaller ones have not, and take time.
-const MOST_VERTICES: usize = 1500;
+const MOST_VERTICES: usize = 700;
 
 impl Run {
     /// Bites and triangulates `domain`, the one that `asked` names.
     pub fn on(domain: Domain, asked: Asked) -> Result<Self, String> {
+        let prepared = spacing::build("lfs", &domain, &Options::new(asked.t, asked.c_b));
+        let prepared = prepared.map_err(|error| format!("{}: {error}", asked.command()))?;
+        Self::with(domain, prepared.function, asked)
+    }
+
+    /// The same with the spacing that there is already.
+    fn with(domain: Domain, spacing: Arc<dyn Spacing>, asked: Asked) -> Result<Self, String> {
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", asked.command());
-        let prepared =
-            spacing::build("lfs", &domain, &Options::new(asked.t, asked.c_b)).map_err(|error| told(&error))?;
         let request = Request {
             c_b: asked.c_b,
             seed: 0,
@@ -78,13 +88,13 @@ impl Run {
             head_on: HeadOn::Leave,
         };
         let mut trace = Trace::watching();
-        let mesh = mesher.mesh(&domain, &*prepared.function, &request, &mut trace);
+        let mesh = mesher.mesh(&domain, &*spacing, &request, &mut trace);
         let mesh = mesh.map_err(|error| told(&error))?;
         let chains = Piece::chains(&domain, vec![Vec::new(); domain.segments().len()]);
         let ground = triangulate(&domain, domain.vertices().to_vec(), chains).map_err(|error| told(&error))?;
         Ok(Self {
-            t: prepared.t_effective(asked.c_b),
-            spacing: prepared.function,
+            t: asked.c_b * spacing.lipschitz(),
+            spacing,
             bites: trace.bites.unwrap_or_default(),
             ground: (0..ground.triangles.len()).map(|k| ground.corners(k)).collect(),
             mesh,
@@ -143,11 +153,12 @@ impl Run {
     /// What a caption says of it.
     pub fn told(&self) -> String {
         format!(
-            "`{}`, f = lfs limited to the Lipschitz constant α = t / c_b, t = {} (effective {}), c_b = {}: {} bites, {} triangles",
+            "`{}`, f = lfs limited to the Lipschitz constant α = t / c_b, t = {} (effective {}), c_b = {}, order of bites `{}`: {} bites, {} triangles",
             self.asked.domain,
             short(self.asked.t),
             short(self.t),
             short(self.asked.c_b),
+            self.asked.order(),
             self.bites.len(),
             self.mesh.triangles.len()
         )
@@ -180,16 +191,19 @@ pub(super) fn is_plain(domain: &Domain) -> bool {
 /// (t, c_b), all with t ≤ 1/3 and c_b + t ≤ 1.
 const SETTINGS: [(f64, f64); 3] = [(0.25, 0.75), (0.25, 0.5), (0.3, 0.4)];
 
+/// The default, and the one that goes layer by layer.
+const ORDERS: [Order; 2] = [Order::Largest, Order::Fifo];
+
 /// Random domains tried of each kind.
-const SEEDS: u64 = 8;
+const SEEDS: u64 = 6;
 const RANDOM: [&str; 3] = [
     "random-convex:n=8,seed=",
     "random-pslg:kind=slits,seed=",
-    "random-pslg:kind=holes,seed=",
+    "random-pslg:kind=islands,seed=",
 ];
 
 /// The runs in which figures 2 to 5 are searched for: every domain of the gallery drawn by rule, and random ones, which have no
-/// angle under 90°, each by every setting. Those that need more than [`MOST_VERTICES`] are left out.
+/// angle under 90°, each by every setting in two orders of bites. Those that need more than [`MOST_VERTICES`] are left out.
 pub(super) fn searched() -> Vec<Run> {
     let by_rule = gallery::ENTRIES
         .iter()
@@ -205,16 +219,25 @@ pub(super) fn searched() -> Vec<Run> {
     let runs = names.par_iter().flat_map_iter(|name| {
         let domain = domain::load(name).ok().filter(is_plain);
         domain.into_iter().flat_map(move |domain| {
-            SETTINGS.iter().filter_map(move |&(t, c_b)| {
-                let asked = Asked {
-                    domain: name.clone(),
-                    t,
-                    c_b,
-                    order: Order::default(),
-                };
-                Run::on(domain.clone(), asked).ok()
-            })
+            let settings = SETTINGS.iter();
+            settings.flat_map(move |&(t, c_b)| in_both_orders(&domain, name, t, c_b))
         })
     });
     runs.collect()
+}
+
+fn in_both_orders(domain: &Domain, name: &str, t: f64, c_b: f64) -> Vec<Run> {
+    let Ok(prepared) = spacing::build("lfs", domain, &Options::new(t, c_b)) else {
+        return Vec::new();
+    };
+    let run = |order: Order| {
+        let asked = Asked {
+            domain: name.to_owned(),
+            t,
+            c_b,
+            order,
+        };
+        Run::with(domain.clone(), prepared.function.clone(), asked).ok()
+    };
+    ORDERS.into_iter().filter_map(run).collect()
 }

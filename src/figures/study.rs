@@ -7,8 +7,8 @@ use crate::charts::{self, SIZE_RATIO};
 use crate::domain;
 use crate::experiment::measure::fingerprint;
 use crate::experiment::record::Row;
-use crate::experiment::series::time_series;
-use crate::experiment::summary::{Grid, Setting, measured, setting};
+use crate::experiment::series::{TimeSeries, time_series};
+use crate::experiment::summary::{Grid, Setting, measured, median, setting};
 use crate::mesh::Mesh;
 use crate::meshers::{Budget, MESHERS, Parameters, Request, Trace};
 use crate::quality::angles_deg;
@@ -90,8 +90,8 @@ pub(super) fn size(material: &Material) -> Result<Drawing<'_>, String> {
         .iter()
         .flat_map(|t| first.c_bs.iter().map(move |c_b| (*t, *c_b)))
     {
-        let median = first.median(t, c_b, SIZE_RATIO.value);
-        medians.extend(median.map(|median| (t, c_b, median)));
+        let ratio = first.median(t, c_b, SIZE_RATIO.value);
+        medians.extend(ratio.map(|ratio| (t, c_b, ratio)));
     }
     let scaled: Vec<f64> = medians.iter().map(|(_, c_b, ratio)| ratio * c_b * c_b).collect();
     let (least, most) = (
@@ -121,6 +121,9 @@ pub(super) fn size(material: &Material) -> Result<Drawing<'_>, String> {
 /// The step whose time is shown beside the whole.
 const TRIANGULATION: &str = "delaunay_triangulation";
 
+/// Steps that take less of the whole, in the median, are not drawn: they would stretch the axis over what matters.
+const LEAST_SHARE: f64 = 0.01;
+
 /// Time a triangle against size, with the triangulation's own beside it.
 pub(super) fn time(material: &Material) -> Result<Drawing<'_>, String> {
     let rows = material.rows()?;
@@ -128,24 +131,31 @@ pub(super) fn time(material: &Material) -> Result<Drawing<'_>, String> {
     let whole = series.first().ok_or("the sweep has no timed runs")?;
     let triangulation = series.iter().find(|series| series.name == TRIANGULATION);
     let triangulation = triangulation.ok_or("the timed runs do not say how long the triangulation took")?;
-    let shares = whole
-        .points
-        .iter()
-        .zip(&triangulation.points)
-        .map(|(whole, part)| part.1 / whole.1);
-    let share = crate::experiment::summary::median(shares.collect()).unwrap_or(f64::NAN);
-    let slope = |series: &crate::experiment::series::TimeSeries| series.fit().map_or(f64::NAN, |line| line.slope);
+    let share = |part: &TimeSeries| {
+        let shares = whole
+            .points
+            .iter()
+            .zip(&part.points)
+            .map(|(whole, part)| part.1 / whole.1);
+        median(shares.collect()).unwrap_or(0.0)
+    };
+    let (shown, left_out): (Vec<_>, Vec<_>) = series.iter().cloned().partition(|series| share(series) >= LEAST_SHARE);
+    let left_out: Vec<String> = left_out.iter().map(|series| series.name.replace('_', " ")).collect();
+    let slope = |series: &TimeSeries| series.fit().map_or(f64::NAN, |line| line.slope);
+
     let caption = format!(
-        "Time of biting for each triangle of the mesh against its size, whole and step by step, the Delaunay triangulation's own \
-         among them; with fitted lines and their slopes. {} timed runs on one core; f and its limiting are made before and not \
-         counted. The whole grows as triangles to the power {}, the triangulation to {}; the triangulation takes {} % of it in \
-         the median.",
+        "Time of biting for each triangle of the mesh against its size, whole and by step, the Delaunay triangulation's own among the \
+         steps; with fitted lines and their slopes. {} timed runs on one core; f and its limiting are made before and not counted. \
+         The whole grows as triangles to the power {}, the triangulation to {}; the triangulation takes {} % of it in the median. \
+         Not drawn, since they take less than {} %: {}.",
         whole.points.len(),
         short(slope(whole)),
         short(slope(triangulation)),
-        short(100.0 * share)
+        short(100.0 * share(triangulation)),
+        short(100.0 * LEAST_SHARE),
+        left_out.join(", ")
     );
-    let values = |series: &crate::experiment::series::TimeSeries| {
+    let values = |series: &TimeSeries| {
         let points = series
             .points
             .iter()
@@ -156,7 +166,7 @@ pub(super) fn time(material: &Material) -> Result<Drawing<'_>, String> {
         numbers.with(&series.name, values(series))
     });
     Ok(Drawing {
-        picture: Picture::Chart(Box::new(move |stem| charts::time_per_triangle(&series, stem))),
+        picture: Picture::Chart(Box::new(move |stem| charts::time_per_triangle(&shown, stem))),
         caption,
         numbers,
         commands: vec![SWEEP.into()],
@@ -167,7 +177,7 @@ pub(super) fn time(material: &Material) -> Result<Drawing<'_>, String> {
 const SHOWN: &str = "plate-hole";
 const SPACING: &str = "min(lfs, uniform:0.12)";
 const T: f64 = 0.25;
-const C_B: f64 = 0.5;
+const C_B: f64 = 0.75;
 
 /// One domain by every mesher of this crate, for the same edge length.
 pub(super) fn meshers(_: &Material) -> Result<Drawing<'static>, String> {

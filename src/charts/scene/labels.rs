@@ -33,13 +33,16 @@ const DISTANCES: [f64; 6] = [7.0, 11.0, 16.0, 23.0, 32.0, 44.0];
 
 /// What a pixel of distance costs; a label on another, or on a point, for each square pixel, and at least; a pixel outside the
 /// picture.
-const FAR: f64 = 0.9;
+const FAR: f64 = 1.6;
 const COLLISION: f64 = 4.0;
 const COLLIDES: f64 = 4000.0;
 const OUTSIDE: f64 = 1000.0;
 
 /// Labels keep so many pixels apart.
 const APART: f64 = 2.0;
+
+/// And so many from lines.
+const LINES_APART: f64 = 2.5;
 
 /// A label that moved this often stays.
 const ROUNDS: usize = 12;
@@ -106,7 +109,7 @@ fn reach(direction: DVec2, half: DVec2, distance: f64) -> f64 {
 
 fn cost(place: Rect, label: &Wanted, distance: f64, obstacles: &Obstacles, frame: Rect) -> f64 {
     let points: f64 = obstacles.points.iter().map(|point| collision(place, *point)).sum();
-    let room = grown(place, 1.0);
+    let room = grown(place, LINES_APART);
     let lines = obstacles.lines.iter().filter_map(|(ends, weight)| {
         let [from, to] = clip::segment(*ends, room)?;
         Some(weight * (1.0 + from.distance(to)))

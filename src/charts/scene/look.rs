@@ -56,7 +56,7 @@ pub(super) fn length() -> Line {
         colour: INK,
         width: 3,
         dashes: None,
-        weight: 2.5,
+        weight: 8.0,
     }
 }
 

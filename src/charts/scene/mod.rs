@@ -165,9 +165,11 @@ impl Scene {
         self.shapes.push(Shape::Line(points.into_iter().collect(), pen));
     }
 
-    /// Adds a circle.
+    /// Adds a circle, if it comes near the window.
     pub fn circle(&mut self, disc: Disc, pen: Pen) {
-        self.shapes.push(Shape::Arc(Arc::whole(disc), pen));
+        if self.window.distance(disc.centre) <= disc.radius {
+            self.shapes.push(Shape::Arc(Arc::whole(disc), pen));
+        }
     }
 
     /// Adds arcs.

@@ -20,8 +20,9 @@ const LETTER: i32 = LABEL;
 const LOWERED: i32 = 14;
 const DROP: f64 = 6.0;
 
-/// Circles are drawn as polygons: the longest side, in pixels.
-const SIDE: f64 = 2.0;
+/// Circles are drawn as polygons: how far sides may lie within the circle, in pixels. Shorter sides would be rougher, since
+/// their ends are rounded.
+const WITHIN: f64 = 0.12;
 
 impl Sheet {
     fn columns(&self) -> usize {
@@ -37,21 +38,28 @@ impl Sheet {
             .collect()
     }
 
+    /// Height of the titles of each row, in pixels.
+    fn heads(&self) -> Vec<f64> {
+        let is_titled = |row: &[Scene]| row.iter().any(|scene| !scene.title.is_empty());
+        let rows = self.scenes.chunks(self.columns());
+        rows.map(|row| if is_titled(row) { HEAD } else { MARGIN }).collect()
+    }
+
     /// Where each scene is, in pixels of the picture.
     fn frames(&self) -> Vec<Rect> {
         let (columns, mut top) = (self.columns(), 0.0);
         let width = WIDTH / columns as f64;
         let mut frames = Vec::new();
-        for (row, height) in self.row_heights().into_iter().enumerate() {
+        for (row, (height, head)) in self.row_heights().into_iter().zip(self.heads()).enumerate() {
             let count = self.scenes.len().min((row + 1) * columns) - row * columns;
             frames.extend((0..count).map(|column| {
-                let min = DVec2::new(column as f64 * width + MARGIN, top + HEAD);
+                let min = DVec2::new(column as f64 * width + MARGIN, top + head);
                 Rect {
                     min,
                     max: min + DVec2::new(width - 2.0 * MARGIN, height),
                 }
             }));
-            top += HEAD + height + MARGIN;
+            top += head + height + MARGIN;
         }
         frames
     }
@@ -71,8 +79,8 @@ impl Sheet {
 
 impl Figure for Sheet {
     fn size(&self) -> (u32, u32) {
-        let heights = self.row_heights();
-        let height: f64 = heights.iter().sum::<f64>() + heights.len() as f64 * (HEAD + MARGIN);
+        let rows = self.row_heights().into_iter().zip(self.heads());
+        let height: f64 = rows.map(|(height, head)| height + head + MARGIN).sum();
         (WIDTH as u32, height.ceil() as u32)
     }
 
@@ -126,9 +134,8 @@ impl View {
         Some(match shape {
             Shape::Line(points, pen) => (self.all(points), look::pen(*pen)),
             Shape::Arc(arc, pen) => {
-                let sides = (arc.sweep * arc.disc.radius * self.scale / SIDE)
-                    .ceil()
-                    .clamp(4.0, 2000.0);
+                let radius = arc.disc.radius * self.scale;
+                let sides = (arc.sweep * (radius / (8.0 * WITHIN)).sqrt()).ceil().clamp(4.0, 2000.0);
                 (self.all(&arc.points(sides as usize)), look::pen(*pen))
             }
             Shape::Length(ends) => (self.all(ends), look::length()),
@@ -190,8 +197,11 @@ impl View {
                 obstacles.points.push(labels::grown(Rect { min: at, max: at }, radius));
             }
             if let Some((points, line)) = self.outline(shape) {
-                let ends = points.windows(2).map(|ends| ([ends[0], ends[1]], line.weight));
-                obstacles.lines.extend(ends);
+                let parts = clip::line(&points, self.frame);
+                let ends = parts.iter().flat_map(|part| part.windows(2));
+                obstacles
+                    .lines
+                    .extend(ends.map(|ends| ([ends[0], ends[1]], line.weight)));
             }
         }
         obstacles
