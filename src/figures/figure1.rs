@@ -189,8 +189,9 @@ impl Figure1 {
              left; (e) the first bite in the interior; (f) a layer of the interior: every bite at a vertex of the front of (d) \
              that was still there in its turn.\n\nThick orange: the front, segments and arcs, computed from the circles anew for \
              each panel. Biscuit: what is left; grey: eaten before; blue: eaten since the panel before, with the circles and \
-             centres (dots) of these bites. Bites so far: {}.\n\nDrawn from {}; in this order layers come one after another. The polygon is, of {} random ones of {} to {} vertices that have a notch and no angle under 90°, the one whose \
-             shortest side is longest for its area ({} of its square root).",
+             centres (dots) of these bites. Bites so far: {}.\n\nDrawn from {}; in this order layers come one after another. The polygon \
+             is, of {} random ones of {} to {} vertices that have a notch and no angle under 90°, the one whose shortest side is \
+             longest for its area ({} of its square root).",
             counts.join(", "),
             self.run.told(),
             SEEDS * VERTICES.len() as u64,

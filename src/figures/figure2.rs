@@ -80,7 +80,7 @@ impl Figure2<'_> {
         let left = if p1.centre.x < p2.centre.x { 1.0 } else { -1.0 };
         for (disc, angle, words) in [
             (&self.p0, 90.0 + 25.0 * left, "c_b f(p_0)"),
-            (p1, 90.0 + 15.0 * left, "c_b f(p_1)"),
+            (p1, 90.0 + 45.0 * left, "c_b f(p_1)"),
             (p2, 90.0 - 25.0 * left, "c_b f(p_2)"),
             (q, 90.0, "c_b f(q)"),
         ] {

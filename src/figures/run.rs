@@ -189,7 +189,7 @@ pub(super) fn is_plain(domain: &Domain) -> bool {
 }
 
 /// (t, c_b), all with t ≤ 1/3 and c_b + t ≤ 1.
-const SETTINGS: [(f64, f64); 3] = [(0.25, 0.75), (0.25, 0.5), (0.3, 0.4)];
+const SETTINGS: [(f64, f64); 4] = [(0.25, 0.75), (0.25, 0.5), (0.3, 0.5), (0.3, 0.4)];
 
 /// The default, and the one that goes layer by layer.
 const ORDERS: [Order; 2] = [Order::Largest, Order::Fifo];

@@ -330,11 +330,11 @@ fn write_label<DB: DrawingBackend>(area: &Area<DB>, label: &Label, place: Rect) 
     for (lowered, letters) in runs(&label.words) {
         let drop = if lowered { DROP } else { 0.0 };
         let look = style::text(letter_height(lowered), colour, HPos::Left, VPos::Center);
-        area.draw(&Text::new(
-            letters.clone(),
-            units(DVec2::new(left, middle + drop)),
-            look,
-        ))?;
+        // SVG drops blanks at the beginning of a text.
+        let shown = letters.trim_start();
+        let blank = run_width(lowered, &letters) - run_width(lowered, shown);
+        let place = units(DVec2::new(left + blank, middle + drop));
+        area.draw(&Text::new(shown.to_owned(), place, look))?;
         left += run_width(lowered, &letters);
     }
     Ok(())
