@@ -47,24 +47,3 @@ fn is_inside(run: &Run, point: DVec2) -> bool {
     });
     right.count() % 2 == 1
 }
-
-#[test]
-#[ignore]
-fn write_all() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let material = material();
-    let start = std::time::Instant::now();
-    eprintln!("{} runs {:?}", material.runs().len(), start.elapsed());
-    for entry in super::FIGURES {
-        let start = std::time::Instant::now();
-        match (entry.draw)(material) {
-            Err(error) => eprintln!("{}: {error}", entry.name),
-            Ok(drawing) => {
-                let made = start.elapsed();
-                super::write_one(entry, &drawing, &root.join("paper/figures")).unwrap();
-                eprintln!("{} found {made:?} all {:?}", entry.name, start.elapsed());
-            }
-        }
-    }
-    super::save(&root.join("paper/README.md"), &super::page::readme(super::FIGURES)).unwrap();
-}
