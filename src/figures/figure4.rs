@@ -181,11 +181,10 @@ impl Figure4<'_> {
         vec![first, second, third]
     }
 
-    /// Picture, caption and numbers.
-    pub fn drawing(&self) -> Drawing<'static> {
+    fn caption(&self) -> String {
         let ((a, first), (b, second), (c, third)) = (&self.seen, &self.cut_off, &self.cut_off_inside);
         let largest = |found: &Obtuse| angles_deg(found.corners)[2];
-        let caption = format!(
+        format!(
             "Triangles of the mesh: (a) a triangle pqr of the first subset: all of it is visible from its circumcentre c, which lies \
              in a biting circle B(x, c_b f(x)) (solid); (b) a triangle xyz of the second subset: the boundary piece p₁p₂ cuts it off \
              from c; (c) a triangle pqr of the second subset although its circumcentre c is in the domain. Dashed: the circumcircle, \
@@ -218,7 +217,11 @@ impl Figure4<'_> {
             a.told(),
             b.told(),
             c.told()
-        );
+        )
+    }
+
+    /// Picture, caption and numbers.
+    pub fn drawing(&self) -> Drawing<'static> {
         let numbers = |(run, found): &(&Run, Obtuse)| {
             let numbers = Numbers::default().run(run).points("corners", &found.corners);
             numbers
@@ -230,7 +233,7 @@ impl Figure4<'_> {
                 columns: 3,
                 scenes: self.scenes(),
             }),
-            caption,
+            caption: self.caption(),
             numbers: Numbers::default()
                 .with("a", numbers(&self.seen).disc("covering", &self.covering))
                 .with("b", numbers(&self.cut_off))
@@ -238,7 +241,9 @@ impl Figure4<'_> {
                 .with("counts", self.counts.to_vec())
                 .with("cut_off_by_one_sided", self.one_sided)
                 .with("left_out_as_forced", self.forced),
-            commands: vec![a.asked.command(), b.asked.command(), c.asked.command()],
+            commands: [&self.seen, &self.cut_off, &self.cut_off_inside]
+                .map(|(run, _)| run.asked.command())
+                .to_vec(),
         }
     }
 }

@@ -100,15 +100,14 @@ impl Figure5<'_> {
         vec![first, second]
     }
 
-    /// Picture, caption and numbers.
-    pub fn drawing(&self) -> Drawing<'static> {
+    fn caption(&self) -> String {
         let ((first, a), (second, b)) = (&self.progressive, &self.middle);
         let is_attained = a.h_r / a.p1.radius < lemma_6_3(first.t) * (1.0 + 1e-6);
         let attained = match is_attained {
             true => ", which is attained: f falls from p₁ to q as steeply as it may",
             false => "",
         };
-        let caption = format!(
+        format!(
             "Biting circles on the boundary. (a) The centre q of the new circle is labelled B(p₁): it lies on the circle of p₁, which \
              was chosen before it. (b) The centre q is labelled M(p₁, p₂): it is the middle of q₁q₂, where the circles of p₁ and p₂ \
              leave the boundary. In both, r is where the circles of p₁ and q meet inside the domain, and h_r is its distance to the \
@@ -126,7 +125,12 @@ impl Figure5<'_> {
             self.seen[0],
             second.told(),
             self.seen[1]
-        );
+        )
+    }
+
+    /// Picture, caption and numbers.
+    pub fn drawing(&self) -> Drawing<'static> {
+        let ((first, a), (second, b)) = (&self.progressive, &self.middle);
         let numbers_a = Numbers::default()
             .run(first)
             .disc("p1", &a.p1)
@@ -147,7 +151,7 @@ impl Figure5<'_> {
                 columns: 2,
                 scenes: self.scenes(),
             }),
-            caption,
+            caption: self.caption(),
             numbers: Numbers::default().with("a", numbers_a).with("b", numbers_b),
             commands: vec![first.asked.command(), second.asked.command()],
         }

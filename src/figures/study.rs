@@ -179,8 +179,8 @@ const SPACING: &str = "min(lfs, uniform:0.12)";
 const T: f64 = 0.25;
 const C_B: f64 = 0.75;
 
-/// One domain by every mesher of this crate, for the same edge length.
-pub(super) fn meshers(_: &Material) -> Result<Drawing<'static>, String> {
+/// The domain by every mesher, under its name.
+fn by_every_mesher() -> Result<Vec<(&'static str, Mesh)>, String> {
     let domain = domain::load(SHOWN).map_err(|error| error.to_string())?;
     let prepared = spacing::build(SPACING, &domain, &Options::new(T, C_B)).map_err(|error| error.to_string())?;
     let request = Request {
@@ -195,13 +195,19 @@ pub(super) fn meshers(_: &Material) -> Result<Drawing<'static>, String> {
         let mesh = mesher.mesh(&domain, &*prepared.function, &request, &mut Trace::default());
         Ok((entry.name, mesh.map_err(|error| told(error.to_string()))?))
     });
-    let made: Vec<(&'static str, Mesh)> = made.collect::<Result<_, String>>()?;
-    let smallest = |mesh: &Mesh| {
-        let all = (0..mesh.triangles.len()).flat_map(|t| angles_deg(mesh.corners(t)));
-        all.fold(180.0, f64::min)
-    };
+    made.collect()
+}
+
+fn smallest_angle_deg(mesh: &Mesh) -> f64 {
+    let all = (0..mesh.triangles.len()).flat_map(|t| angles_deg(mesh.corners(t)));
+    all.fold(180.0, f64::min)
+}
+
+/// One domain by every mesher of this crate, for the same edge length.
+pub(super) fn meshers(_: &Material) -> Result<Drawing<'static>, String> {
+    let made = by_every_mesher()?;
     let told = |(name, mesh): &(&str, Mesh)| {
-        let angle = smallest(mesh);
+        let angle = smallest_angle_deg(mesh);
         format!(
             "{name}, {} triangles, smallest angle {}°",
             mesh.triangles.len(),
@@ -219,7 +225,7 @@ pub(super) fn meshers(_: &Material) -> Result<Drawing<'static>, String> {
         let own = Numbers::default().with("triangles", mesh.triangles.len());
         numbers.with(
             name,
-            own.number("smallest_angle_deg", smallest(mesh))
+            own.number("smallest_angle_deg", smallest_angle_deg(mesh))
                 .with("mesh", fingerprint(mesh)),
         )
     });

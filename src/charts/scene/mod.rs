@@ -1,8 +1,8 @@
 //! Geometric drawings: circles, arcs, lines, areas, points and lengths in the domain's coordinates, with labels that are
 //! placed so that none collides.
 //!
-//! A [`Scene`] says what is to be seen, by what it means ([`Pen`], [`Fill`], [`Mark`]); how that looks is in [`look`], where
-//! labels go in [`labels`].
+//! A [`Scene`] says what is to be seen, by what it means ([`Pen`], [`Fill`], [`Mark`]); how that looks is in `look.rs`, where
+//! labels go in `labels.rs`.
 
 mod clip;
 pub(crate) mod labels;
