@@ -19,6 +19,9 @@ pub struct Arguments {
     /// Folder to write to
     #[arg(long, value_name = "FOLDER", default_value = "paper")]
     out: PathBuf,
+    /// Folder of results that the figures of the study are drawn from
+    #[arg(long, value_name = "FOLDER", default_value = "results", conflicts_with = "replay")]
+    results: PathBuf,
     #[command(flatten, next_help_heading = "Of a replay")]
     asked: Asked,
 }
@@ -32,7 +35,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let cell = arguments.asked.cell(domain, MESHER)?;
             vec![replay::write(&arguments.out, &cell).map_err(refused)?]
         }
-        None => figures::write(&arguments.out, arguments.only.as_deref()).map_err(Failure::input)?,
+        None => {
+            figures::write(&arguments.out, &arguments.results, arguments.only.as_deref()).map_err(Failure::input)?
+        }
     };
     for path in written {
         say(format_args!("wrote {}", path.display()));
