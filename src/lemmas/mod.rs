@@ -10,6 +10,7 @@ pub mod demonstration;
 pub mod errata;
 pub mod findings;
 pub mod judge;
+mod linear;
 pub mod measured;
 pub mod record;
 pub mod search;
