@@ -31,8 +31,11 @@ pub fn bound(figure: &BoundFigure, stem: &Path) -> Result<(), ChartError> {
     write_both(figure, stem)
 }
 
+/// A curve: its name, its points, the marker in whose colour it is drawn.
+type Curve<'a> = (&'static str, &'a [(f64, f64)], Marker);
+
 impl BoundFigure {
-    fn curves(&self) -> [(&'static str, &[(f64, f64)], Marker); 4] {
+    fn curves(&self) -> [Curve<'_>; 4] {
         let marker = |index| Marker::new(index, style::category(index));
         [
             ("printed", &self.printed, Marker::new(1, style::category(1)).hollow()),

@@ -121,6 +121,8 @@ impl Neg for Number {
 
 impl Mul for Number {
     type Output = Self;
+    // The product's slope is a sum.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     fn mul(self, other: Self) -> Self {
         let (left, right) = (self.value, other.value);
         self.with(other, left * right, |a, b| a * right + b * left)
@@ -129,6 +131,8 @@ impl Mul for Number {
 
 impl Div for Number {
     type Output = Self;
+    // The quotient's slope has a difference and a product.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     fn div(self, other: Self) -> Self {
         let quotient = self.value / other.value;
         self.with(other, quotient, |a, b| (a - quotient * b) / other.value)

@@ -3,7 +3,7 @@
 use super::findings::FINDINGS;
 use super::judge::{Verdict, grid, optima, verdict};
 use super::measured::Meshes;
-use super::record::{Bound, Statement};
+use super::record::{Bound, Formula, Statement};
 use super::search::Sense;
 use super::statements;
 use std::collections::BTreeSet;
@@ -35,7 +35,7 @@ fn every_formula_is_judged_and_only_three_fail() {
 #[test]
 fn a_planted_wrong_formula_is_caught() {
     // Each a plausible slip: a sign, a factor, a root.
-    let planted: [(&str, fn(f64) -> f64); 6] = [
+    let planted: [(&str, Formula); 6] = [
         ("lemma-5.3", |t| 2.0 / (1.0 + t)),
         ("lemma-5.4", |t| 1.0 / (2.0 - t)),
         ("theorem-5.5", |t| (1.0 + t) / (1.0 - t / 2.0)),
