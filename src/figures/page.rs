@@ -93,6 +93,9 @@ pub(super) fn readme(entries: &[Entry]) -> String {
          cargo run --release -- figures\n\n| figure | command | caption, pictures, numbers |\n|---|---|---|\n{rows}\n\
          The caption of each says what is to be seen, in which run it was found, by which command the run can be made again, and \
          the hash of the numbers that it was drawn from; a test makes the numbers again and fails where a figure is stale \
-         (`src/figures/tests/`).\n"
+         (`src/figures/tests/`).\n\n\
+         Beside them: [what is wrong in the paper](errata.md) (`cargo run --release -- lemmas`), and two runs to step through in a \
+         browser, [a plate with a hole](replay-plate-hole.html) and [Italy](replay-italy.html) (`cargo run --release -- figures --replay \
+         plate-hole`).\n"
     )
 }
