@@ -45,18 +45,10 @@ impl Asked {
             None => self.spacing.clone(),
         };
         Ok(Cell {
-            domain: domain.to_owned(),
-            mesher: mesher.to_owned(),
             params: self.param.iter().cloned().collect(),
-            spacing,
-            t: self.t,
-            c_b: self.c_b,
             seed: self.seed,
             lfs_cap: !self.no_lfs_cap,
-            triangles: None,
-            threads: 1,
-            poisson: None,
-            timed: false,
+            ..Cell::new(domain, mesher, &spacing, self.t, self.c_b)
         })
     }
 }

@@ -9,6 +9,8 @@ use crate::meshers::MeshError;
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
+// What is asked of a run is of a replay alone.
+#[command(mut_group("Asked", |group| group.requires("replay")))]
 pub struct Arguments {
     /// Only figures whose name begins so
     #[arg(long, value_name = "NAME")]

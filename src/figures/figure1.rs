@@ -2,7 +2,7 @@
 
 use super::drawing::{Drawing, Numbers, Picture};
 use super::front;
-use super::run::{Asked, Run, is_plain, short};
+use super::run::{Asked, Run, short};
 use crate::charts::scene::{Arc, Fill, Mark, Pen, Scene, Sheet, within};
 use crate::domain::{self, Domain};
 use crate::geometry::near::Disc;
@@ -76,7 +76,7 @@ fn choose_domain() -> Option<(String, Domain)> {
     let names = VERTICES
         .iter()
         .flat_map(|n| (0..SEEDS).map(move |seed| format!("random-simple:n={n},seed={seed}")));
-    let loaded = names.filter_map(|name| Some((domain::load(&name).ok().filter(is_plain)?, name)));
+    let loaded = names.filter_map(|name| Some((domain::load(&name).ok().filter(Domain::has_no_acute_angle)?, name)));
     let notched = loaded.filter(|(domain, _)| has_notch(domain));
     let best = notched.max_by(|a, b| shortest_side(&a.0).total_cmp(&shortest_side(&b.0)));
     best.map(|(domain, name)| (name, domain))

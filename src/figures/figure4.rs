@@ -6,6 +6,7 @@ use crate::charts::scene::{Fill, Mark, Pen, Scene, Sheet};
 use crate::geometry::DVec2;
 use crate::geometry::near::Disc;
 use crate::geometry::predicates::{Meeting, in_circle, orient2d, segments_meet};
+use crate::geometry::tolerance::PULLED_IN;
 use crate::quality::{angles_deg, circumcentre};
 
 /// A triangle whose circumcentre lies outside it.
@@ -110,9 +111,6 @@ fn obtuse(run: &Run) -> impl Iterator<Item = Obtuse> + '_ {
 fn is_delaunay(run: &Run, [a, b, c]: [DVec2; 3]) -> bool {
     run.mesh.points.iter().all(|&point| in_circle(a, b, c, point) <= 0.0)
 }
-
-/// How far corners are pulled towards the triangle's middle before they are looked at.
-const PULLED_IN: f64 = 1e-6;
 
 /// The segment that hides some of a triangle from its circumcentre, if there is one. What hides it has a part within the triangle
 /// and the circumcentre's hull, outside the triangle: so it crosses a line of sight to a corner, or has an end in there.

@@ -5,7 +5,8 @@ use super::edge::{self, Middle, Progressive, difference};
 use super::run::{Run, short};
 use crate::charts::scene::{Fill, Mark, Pen, Scene, Sheet};
 use crate::geometry::DVec2;
-use crate::geometry::near::Disc;
+use crate::geometry::near::{Disc, least_meeting_height};
+use crate::lemmas::statements::least_progressive_height;
 
 /// A bite of each label.
 pub(super) struct Figure5<'a> {
@@ -40,16 +41,6 @@ fn best<T>(runs: &[Run], all: fn(&Run) -> Vec<T>, clarity: impl Fn(&T) -> f64) -
         .inspect(|_| seen += 1)
         .max_by(|a, b| clarity(&a.1).total_cmp(&clarity(&b.1)));
     (best, seen)
-}
-
-/// (1 − t) √((3 − t)(1 + t)) / 2: what Lemma 6.3 has h_r / (c_b f(p₁)) be at least.
-pub(super) fn lemma_6_3(t: f64) -> f64 {
-    (1.0 - t) * ((3.0 - t) * (1.0 + t)).sqrt() / 2.0
-}
-
-/// (1 − t) √((t² − 4t + 7)(1 − t²)) / 4: the same of Lemma 6.4.
-pub(super) fn lemma_6_4(t: f64) -> f64 {
-    (1.0 - t) * ((t * t - 4.0 * t + 7.0) * (1.0 - t * t)).sqrt() / 4.0
 }
 
 /// Circles, the triangle of their centres and r, and h_r.
@@ -102,7 +93,7 @@ impl Figure5<'_> {
 
     fn caption(&self) -> String {
         let ((first, a), (second, b)) = (&self.progressive, &self.middle);
-        let is_attained = a.h_r / a.p1.radius < lemma_6_3(first.t) * (1.0 + 1e-6);
+        let is_attained = a.h_r / a.p1.radius < least_progressive_height(first.t) * (1.0 + 1e-6);
         let attained = match is_attained {
             true => ", which is attained: f falls from p₁ to q as steeply as it may",
             false => "",
@@ -116,10 +107,10 @@ impl Figure5<'_> {
              promises at least {} for t = {}.\n\nDrawn (a) from {}, of {} such bites the one whose circles differ most; (b) from {}, of \
              {} such bites the one with the widest gap q₁q₂ for its circle, circles that differ preferred.",
             short(a.h_r / a.p1.radius),
-            short(lemma_6_3(first.t)),
+            short(least_progressive_height(first.t)),
             short(first.t),
             short(b.h_r / b.p1.radius),
-            short(lemma_6_4(second.t)),
+            short(least_meeting_height(second.t)),
             short(second.t),
             first.told(),
             self.seen[0],

@@ -7,14 +7,9 @@
 use crate::charts::scene::Arc;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
-use crate::geometry::near::Disc;
+use crate::geometry::near::{Disc, Near, circle_intersections};
+use crate::geometry::tolerance::{COVERED, NOTHING};
 use std::f64::consts::TAU;
-
-/// Circles count as smaller by this share where they cover: what lies on two circles at once belongs to the front.
-const COVERED: f64 = 1e-9;
-
-/// Parts shorter than this share of a circle's radius, or of a segment, are rounding.
-const NOTHING: f64 = 1e-6;
 
 /// Whether `disc` covers `point`.
 pub(super) fn covers(disc: &Disc, point: DVec2) -> bool {
@@ -64,14 +59,15 @@ pub(super) fn in_domain(domain: &Domain, disc: &Disc) -> Vec<Arc> {
 /// Where two circles meet: the points of both.
 pub(super) fn meeting_points(one: &Disc, other: &Disc) -> Option<[DVec2; 2]> {
     let offset = other.centre - one.centre;
-    let distance = offset.length();
-    let along = (distance * distance + one.radius * one.radius - other.radius * other.radius) / (2.0 * distance);
-    let across_squared = one.radius * one.radius - along * along;
-    (distance > 0.0 && across_squared >= 0.0).then(|| {
-        let direction = offset / distance;
-        let (foot, across) = (one.centre + along * direction, across_squared.sqrt() * direction.perp());
-        [foot + across, foot - across]
-    })
+    let near = Near {
+        id: 0,
+        offset,
+        distance_squared: offset.length_squared(),
+        radius: other.radius,
+    };
+    let is_within = one.radius - other.radius;
+    let may_meet = near.distance_squared > is_within * is_within && meet(one, other);
+    may_meet.then(|| circle_intersections(one.radius, &near).map(|relative| one.centre + relative))
 }
 
 fn meet(one: &Disc, other: &Disc) -> bool {
@@ -187,7 +183,7 @@ mod tests {
             let other = discs[1 - k];
             assert!(arc.points(50).iter().all(|point| !covers(&other, *point)));
         }
-        let [above, below] = meeting_points(&discs[0], &discs[1]).unwrap();
-        assert!((above - below).perp_dot(DVec2::Y).abs() < 1e-12 && above.distance(below) > 0.3);
+        let [one, other] = meeting_points(&discs[0], &discs[1]).unwrap();
+        assert!((one - other).perp_dot(DVec2::Y).abs() < 1e-12 && one.distance(other) > 0.3);
     }
 }

@@ -11,6 +11,7 @@ mod figure3;
 mod figure4;
 mod figure5;
 mod front;
+mod labels;
 mod page;
 pub mod replay;
 mod run;

@@ -2,6 +2,7 @@
 
 use super::Entry;
 use super::drawing::Drawing;
+use crate::experiment::battery::family::fingerprint;
 use serde_json::Value;
 
 /// The command that draws a figure.
@@ -9,13 +10,9 @@ fn command(entry: &Entry) -> String {
     format!("cargo run --release -- figures --only {}", entry.name)
 }
 
-/// FNV-1a of a value's text, in hexadecimal.
+/// A hash of a value's text, in hexadecimal.
 pub(super) fn hash(value: &Value) -> String {
-    let text = value.to_string();
-    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
-    format!("{hash:016x}")
+    format!("{:016x}", fingerprint(&value.to_string()))
 }
 
 /// The caption file of a figure.

@@ -1,13 +1,15 @@
 //! Runs of biting that figures are found in: the paper to the letter, on domains that meet its hypotheses.
 
+use super::labels;
 use crate::delaunay::triangulate;
 use crate::domain::{self, Domain, gallery};
 use crate::experiment::measure::fingerprint;
+use crate::experiment::record::{Cell, quoted};
 use crate::geometry::DVec2;
 use crate::geometry::near::Disc;
-use crate::geometry::tolerance::RIGHT_ANGLE_DEG;
+use crate::geometry::tolerance::ALONG_SEGMENT;
 use crate::mesh::{Mesh, Piece};
-use crate::meshers::biting::{Biting, Corners, HeadOn, Order};
+use crate::meshers::biting::{Biting, Corners, HeadOn, Order, TO_THE_LETTER};
 use crate::meshers::{Bite, Budget, Mesher, Reason, Request, Trace};
 use crate::spacing::{self, Options, Spacing};
 use rayon::prelude::*;
@@ -29,13 +31,11 @@ pub(super) struct Asked {
 impl Asked {
     /// The command that makes the same mesh.
     pub fn command(&self) -> String {
+        let cell = Cell::new(&self.domain, "biting", "lfs", self.t, self.c_b);
+        let options = cell.with(&[("order", &self.order())]).with(TO_THE_LETTER).options();
         format!(
-            "cargo run --release -- mesh {} --spacing lfs --t {} --c-b {} --param order={} --param corners=bite \
-             --param head_on=leave --out mesh.svg",
-            self.domain,
-            self.t,
-            self.c_b,
-            self.order()
+            "cargo run --release -- mesh {}{options} --out mesh.svg",
+            quoted(&self.domain)
         )
     }
 
@@ -74,13 +74,11 @@ impl Run {
     fn with(domain: Domain, spacing: Arc<dyn Spacing>, asked: Asked) -> Result<Self, String> {
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", asked.command());
         let request = Request {
-            c_b: asked.c_b,
-            seed: 0,
-            threads: 1,
             budget: Budget {
                 max_vertices: Some(MOST_VERTICES),
                 ..Budget::default()
             },
+            ..Request::new(asked.c_b)
         };
         let mesher = Biting {
             order: asked.order,
@@ -126,11 +124,8 @@ impl Run {
 
     /// The bite before number `before`, centred on `segment`, whose circle leaves the segment at `point`.
     pub fn circle_through(&self, point: DVec2, segment: usize, before: usize) -> Option<usize> {
-        let on_circle = |k: &usize| {
-            let disc = self.disc(*k);
-            (disc.centre.distance(point) - disc.radius).abs() < ON_CIRCLE * disc.radius
-        };
-        (0..before).rev().filter(on_circle).find(|k| self.is_on(*k, segment))
+        let found = labels::circle_through(&self.bites[..before], self.domain.ends(segment), point);
+        found.filter(|k| self.is_on(*k, segment))
     }
 
     /// Whether bite `k` is centred on `segment`.
@@ -143,11 +138,13 @@ impl Run {
         }
     }
 
-    /// How well a figure on this segment reads: 1 where it lies level with the domain above it, 0 where it does not.
+    /// Whether a figure on this segment reads well: it lies level, with the domain above it.
     pub fn is_level(&self, segment: usize) -> bool {
         let [a, b] = self.domain.ends(segment);
         let above = a.midpoint(b) + 1e-3 * a.distance(b) * DVec2::Y;
-        (a.y - b.y).abs() < 1e-9 * a.distance(b) && self.domain.is_boundary(segment) && self.domain.contains(above)
+        (a.y - b.y).abs() < ALONG_SEGMENT * a.distance(b)
+            && self.domain.is_boundary(segment)
+            && self.domain.contains(above)
     }
 
     /// What a caption says of it.
@@ -170,9 +167,6 @@ impl Run {
     }
 }
 
-/// A point is on a circle where it is so near to it, by the radius.
-const ON_CIRCLE: f64 = 1e-9;
-
 /// A number in a caption: four digits that count.
 pub(super) fn short(value: f64) -> String {
     let digits = 3 - value.abs().max(1e-9).log10().floor() as i32;
@@ -181,11 +175,6 @@ pub(super) fn short(value: f64) -> String {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
     }
-}
-
-/// Whether no two neighbouring segments meet at an angle under 90°, as the paper assumes.
-pub(super) fn is_plain(domain: &Domain) -> bool {
-    domain.smallest_segment_angle_deg() >= 90.0 - RIGHT_ANGLE_DEG
 }
 
 /// (t, c_b), all with t ≤ 1/3 and c_b + t ≤ 1.
@@ -217,7 +206,7 @@ pub(super) fn searched() -> Vec<Run> {
         .chain(random)
         .collect();
     let runs = names.par_iter().flat_map_iter(|name| {
-        let domain = domain::load(name).ok().filter(is_plain);
+        let domain = domain::load(name).ok().filter(Domain::has_no_acute_angle);
         domain.into_iter().flat_map(move |domain| {
             let settings = SETTINGS.iter();
             settings.flat_map(move |&(t, c_b)| in_both_orders(&domain, name, t, c_b))

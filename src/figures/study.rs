@@ -6,11 +6,11 @@ use super::run::short;
 use crate::charts::{self, SIZE_RATIO};
 use crate::domain;
 use crate::experiment::measure::fingerprint;
-use crate::experiment::record::Row;
+use crate::experiment::record::{Cell, Row};
 use crate::experiment::series::{TimeSeries, time_series};
 use crate::experiment::summary::{Grid, Setting, measured, median, setting};
 use crate::mesh::Mesh;
-use crate::meshers::{Budget, MESHERS, Parameters, Request, Trace};
+use crate::meshers::{MESHERS, Parameters, Request, Trace};
 use crate::quality::angles_deg;
 use crate::report::{grids, ours};
 use crate::spacing::{self, Options};
@@ -183,12 +183,7 @@ const C_B: f64 = 0.75;
 fn by_every_mesher() -> Result<Vec<(&'static str, Mesh)>, String> {
     let domain = domain::load(SHOWN).map_err(|error| error.to_string())?;
     let prepared = spacing::build(SPACING, &domain, &Options::new(T, C_B)).map_err(|error| error.to_string())?;
-    let request = Request {
-        c_b: C_B,
-        seed: 0,
-        threads: 1,
-        budget: Budget::default(),
-    };
+    let request = Request::new(C_B);
     let made = MESHERS.iter().map(|entry| {
         let told = |error: String| format!("{} on {SHOWN}: {error}", entry.name);
         let mesher = (entry.make)(&Parameters::new()).map_err(told)?;
@@ -230,7 +225,8 @@ pub(super) fn meshers(_: &Material) -> Result<Drawing<'static>, String> {
         )
     });
     let commands = made.iter().map(|(name, _)| {
-        format!("cargo run --release -- mesh {SHOWN} --mesher {name} --spacing \"{SPACING}\" --t {T} --c-b {C_B} --out {name}.svg")
+        let options = Cell::new(SHOWN, name, SPACING, T, C_B).options();
+        format!("cargo run --release -- mesh {SHOWN} --mesher {name}{options} --out {name}.svg")
     });
     let commands = commands.collect();
     let picture = move |stem: &std::path::Path| {

@@ -6,9 +6,9 @@ use crate::experiment::prepare::Store;
 use crate::experiment::record::{Cell, Report};
 use crate::experiment::runner;
 use crate::geometry::DVec2;
-use crate::meshers::{Budget, Request};
+use crate::meshers::Request;
+use crate::meshers::biting::TO_THE_LETTER;
 use crate::spacing::{Lfs, Spacing};
-use serde_json::{Map, Value};
 
 /// What shows a finding.
 #[derive(Clone, Copy)]
@@ -75,47 +75,24 @@ impl Demonstration {
 }
 
 impl MeshRun {
+    fn cell(&self) -> Cell {
+        Cell {
+            lfs_cap: self.lfs_cap,
+            ..Cell::new(self.domain, "biting", self.spacing, self.t, self.c_b).with(TO_THE_LETTER)
+        }
+    }
+
     fn command(&self) -> String {
-        let cap = if self.lfs_cap { "" } else { " --no-lfs-cap" };
-        let Self {
-            domain,
-            spacing,
-            t,
-            c_b,
-            ..
-        } = self;
-        format!(
-            "cargo run --release -- mesh {domain} --spacing {spacing} --t {t} --c-b {c_b}{cap} --param corners=bite --param head_on=leave"
-        )
+        format!("cargo run --release -- mesh {}{}", self.domain, self.cell().options())
     }
 
     fn report(&self) -> Result<Report, String> {
-        let to_the_letter = [("corners", "bite"), ("head_on", "leave")];
-        let params = to_the_letter.map(|(name, value)| (name.to_owned(), Value::from(value)));
-        let cell = Cell {
-            domain: self.domain.into(),
-            mesher: "biting".into(),
-            params: Map::from_iter(params),
-            spacing: self.spacing.into(),
-            t: self.t,
-            c_b: self.c_b,
-            seed: 0,
-            lfs_cap: self.lfs_cap,
-            triangles: None,
-            threads: 1,
-            poisson: None,
-            timed: false,
-        };
+        let cell = self.cell();
         let (entry, mesher) = runner::mesher(&cell)?;
         let prepared = Store::new(None, false)
             .prepare_for_t(&cell)
             .map_err(|error| error.to_string())?;
-        let request = Request {
-            c_b: cell.c_b,
-            seed: 0,
-            threads: 1,
-            budget: Budget::default(),
-        };
+        let request = Request::new(cell.c_b);
         let run = measure::run(&prepared, &*mesher, &request).map_err(|error| error.to_string())?;
         Ok(measure::judge(&prepared, &cell, entry, &run, &machine::provenance()))
     }

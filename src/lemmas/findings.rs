@@ -176,7 +176,7 @@ pub static FINDINGS: &[Finding] = &[
         why: "A middle piece is up to 3/2 radii long, and at t = 0 the circles of its ends meet √7/4 radii above it, where they are seen under acos(−1/8) = 97.2°. On an inner segment, \
               with vertices there on both sides, the two angles add up to more than 180°: the piece is no edge of the Delaunay triangulation of the \
               centres, and the segment is not in the mesh. On a boundary with the domain on one side only, c_b ≤ 2/(3 + t) keeps all else out of the piece's circle.",
-        consequence: "The triangulation must be constrained. Lemma 6.1 then needs that no vertex hidden behind a forced piece is inside the circumcircle of a triangle that sees \
+        consequence: "The triangulation must be constrained. Lemma 6.1 then needs, and nobody has proved, that no vertex hidden behind a forced piece is inside the circumcircle of a triangle that sees \
               its circumcentre; the angle bound held in every committed mesh with forced pieces.",
         demonstration: Some(Demonstration::Mesh(MeshRun {
             domain: "interface",

@@ -1,11 +1,9 @@
 //! The judgement on meshes: the worst margin of every check over the committed rows.
 
-use super::record::Statement;
-use super::search::Sense;
+use super::record::{Measured, Statement};
 use crate::experiment::journal::{JournalError, read_rows};
-use crate::experiment::record::{Outcome, Row};
+use crate::experiment::record::{Outcome, Report, Row};
 use crate::experiment::summary::rounded;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// The rows of meshes by biting, of all experiments in a results folder.
@@ -16,8 +14,6 @@ pub struct Meshes {
 /// The worst that meshes show of a statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Worst {
-    /// The check.
-    pub claim: &'static str,
     /// The check's worst value over its bound: at least 1 where a bound from below holds, at most 1 where one from above does.
     pub ratio: f64,
     /// Experiment and cell.
@@ -65,69 +61,72 @@ impl Meshes {
 
     /// The worst margin of a statement's check, where it applies.
     pub fn worst(&self, statement: &Statement) -> Option<Worst> {
-        let mut meshes = 0;
-        let mut worst: Option<Worst> = None;
-        for (experiment, row, ratio, at) in self.ratios(statement) {
-            meshes += 1;
-            let is_worse = worst.as_ref().is_none_or(|worst| match sense(statement) {
-                Sense::AtLeast => ratio < worst.ratio,
-                Sense::AtMost => ratio > worst.ratio,
-            });
-            if is_worse {
-                worst = Some(Worst {
-                    claim: statement.measured.map_or("", |measured| measured.claim),
-                    ratio,
-                    seen: format!("{experiment}: {}", row.key),
-                    at,
-                    t: row.report.as_ref().map_or(f64::NAN, |report| report.t_effective),
-                    meshes: 0,
-                });
-            }
-        }
-        worst.map(|worst| Worst { meshes, ..worst })
+        let measured = statement.measured?;
+        let seen: Vec<Seen> = self.seen(&measured).collect();
+        let rank = |seen: &Seen| measured.sense.sign() * seen.value / seen.bound;
+        let worst = seen.iter().min_by(|a, b| rank(a).total_cmp(&rank(b)))?;
+        Some(Worst {
+            ratio: worst.value / worst.bound,
+            seen: format!("{}: {}", worst.experiment, worst.key),
+            at: worst.at,
+            t: worst.report.t_effective,
+            meshes: seen.len(),
+        })
     }
 
-    /// The worst value of a statement's quantity at each nominal t.
-    pub fn by_t(&self, statement: &Statement) -> BTreeMap<String, f64> {
-        let mut worst = BTreeMap::new();
-        let Some(quantity) = statement.measured.and_then(|measured| measured.quantity) else {
-            return worst;
+    /// The worst value of a statement's quantity at each nominal t, of meshes whose spacing has that t.
+    pub fn by_t(&self, statement: &Statement) -> Vec<(f64, f64)> {
+        let Some((measured, quantity)) = statement
+            .measured
+            .and_then(|measured| Some((measured, measured.quantity?)))
+        else {
+            return Vec::new();
         };
-        for (_, row, ..) in self.ratios(statement) {
-            let Some(report) = &row.report else { continue };
-            // Only where limiting changed the spacing is t what the statement's t is.
-            if (report.t_effective - report.t).abs() > 1e-9 {
-                continue;
-            }
-            let claim = statement.measured.map_or("", |measured| measured.claim);
-            let Some(value) = report.certificate.check(claim).and_then(|check| check.worst) else {
-                continue;
-            };
-            let value = quantity(value, report.c_b, report.t);
-            let entry = worst.entry(rounded(report.t).to_string()).or_insert(value);
-            *entry = match statement.sense {
-                Sense::AtLeast => value.min(*entry),
-                Sense::AtMost => value.max(*entry),
-            };
-        }
-        worst
+        let own = self
+            .seen(&measured)
+            .filter(|seen| (seen.report.t_effective - seen.report.t).abs() < SAME_T);
+        let mut values: Vec<(f64, f64)> = own
+            .map(|seen| {
+                (
+                    rounded(seen.report.t),
+                    quantity(seen.value, seen.report.c_b, seen.report.t),
+                )
+            })
+            .collect();
+        let sign = statement.sense.sign();
+        values.sort_by(|a, b| a.0.total_cmp(&b.0).then((sign * a.1).total_cmp(&(sign * b.1))));
+        values.dedup_by_key(|value| value.0);
+        values
     }
 
-    fn ratios<'a>(&'a self, statement: &Statement) -> impl Iterator<Item = (&'a str, &'a Row, f64, Option<[f64; 2]>)> {
-        let claim = statement.measured.map(|measured| measured.claim);
+    /// The values of a check wherever it applies.
+    fn seen<'a>(&'a self, measured: &Measured) -> impl Iterator<Item = Seen<'a>> {
+        let claim = measured.claim;
         self.rows.iter().filter_map(move |(experiment, row)| {
-            let check = row.report.as_ref()?.certificate.check(claim?)?;
-            let (worst, bound) = (check.worst?, check.bound?);
-            (check.applies && bound > 0.0).then_some((experiment.as_str(), row, worst / bound, check.at))
+            let report = row.report.as_ref()?;
+            let check = report.certificate.check(claim)?;
+            let seen = Seen {
+                experiment,
+                key: &row.key,
+                report,
+                value: check.worst?,
+                bound: check.bound?,
+                at: check.at,
+            };
+            (check.applies && seen.bound > 0.0).then_some(seen)
         })
     }
 }
 
-/// Which way the check of a statement bounds: that of counts of vertices is the other way round than of the integrals behind it.
-fn sense(statement: &Statement) -> Sense {
-    match statement.measured.map(|measured| measured.claim) {
-        Some("vertices-lower") => Sense::AtLeast,
-        Some("vertices-upper") => Sense::AtMost,
-        _ => statement.sense,
-    }
+/// Limiting changed the spacing, so that its t is what was asked for, up to rounding.
+const SAME_T: f64 = 1e-9;
+
+/// A check's worst value on one mesh.
+struct Seen<'a> {
+    experiment: &'a str,
+    key: &'a str,
+    report: &'a Report,
+    value: f64,
+    bound: f64,
+    at: Option<[f64; 2]>,
 }

@@ -85,6 +85,8 @@ pub struct Corrected {
 pub struct Measured {
     /// The check of the certificate.
     pub claim: &'static str,
+    /// Which way the check bounds: of counts of vertices the other way than the integral that the statement is about.
+    pub sense: Sense,
     /// The statement's quantity from the check's worst value, c_b and t; absent where the check measures a consequence.
     pub quantity: Option<fn(f64, f64, f64) -> f64>,
 }

@@ -147,12 +147,6 @@ impl Problem {
         .optimum(effort)
     }
 
-    /// Whether a configuration is allowed, as far as rounding tells.
-    pub fn allows(&self, parameter: f64, unknowns: &[f64]) -> bool {
-        let point: Vec<Interval> = unknowns.iter().copied().map(Interval::point).collect();
-        self.slacks(Interval::point(parameter), &point).is_some()
-    }
-
     /// All constraints over a box; none where one fails throughout.
     fn slacks(&self, parameter: Interval, ranges: &[Interval]) -> Option<Vec<Linear>> {
         let slacks = self.constraints.iter();
@@ -342,7 +336,6 @@ mod tests {
     #[test]
     fn nothing_is_found_where_nothing_is_allowed() {
         assert_eq!(CIRCLE.optimum(Sense::AtLeast, 5.0, Effort::USUAL), None);
-        assert!(CIRCLE.allows(1.0, &[0.5, 0.5]) && !CIRCLE.allows(1.0, &[0.5, 0.4]));
     }
 
     #[test]

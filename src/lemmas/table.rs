@@ -5,7 +5,7 @@ use super::measured::{Meshes, Worst};
 use super::record::{Bound, Statement};
 use super::statements;
 use crate::charts::BoundFigure;
-use crate::report::markdown::{number, plain, table};
+use crate::report::markdown::{number, table};
 use serde_json::{Value, json};
 
 /// Steps of the grid of the parameter.
@@ -89,7 +89,6 @@ impl Line {
             let at = |k: u32| least + (most - least) * f64::from(k) / 100.0;
             (0..=100).map(|k| (at(k), (bound.at)(at(k)))).collect::<Vec<_>>()
         };
-        let measured = meshes.by_t(statement).into_iter();
         Some(BoundFigure {
             title: statement.place.into(),
             parameter: statement.parameter.into(),
@@ -102,10 +101,7 @@ impl Line {
                 .iter()
                 .map(|one| (one.parameter, one.optimum.found))
                 .collect(),
-            measured: measured
-                .filter_map(|(t, worst)| Some((t.parse().ok()?, worst)))
-                .filter(|(t, _): &(f64, f64)| *t <= most)
-                .collect(),
+            measured: meshes.by_t(statement).into_iter().filter(|(t, _)| *t <= most).collect(),
         })
     }
 
@@ -208,34 +204,39 @@ pub fn page(lines: &[Line], meshes: &Meshes) -> String {
         &cells,
     );
     text += "## Where the worst was seen\n\n";
-    let seen = lines.iter().filter_map(|line| Some((line, line.worst.as_ref()?)));
-    let seen: Vec<Vec<String>> = seen
-        .map(|(line, worst)| {
-            let at = worst.at.map_or("–".into(), |[x, y]| format!("({x:.6}, {y:.6})"));
-            vec![
-                line.statement.place.into(),
-                number(worst.ratio),
-                plain(&worst.seen),
-                number(worst.t),
-                at,
-            ]
-        })
-        .collect();
-    text += &table(&["statement", "worst / bound", "cell", "t", "at"], &seen);
+    text += &where_seen(lines);
     text += "## Figures\n\n";
-    for line in lines
-        .iter()
-        .filter(|line| line.statement.range.0 < line.statement.range.1)
-    {
-        let Statement { place, quantity, .. } = &line.statement;
-        let name = line.statement.figure_name();
-        text += &format!("![{place}](charts/{name}.png)\n*{place}: {quantity}.* ([SVG](charts/{name}.svg))\n\n");
-    }
+    text += &figures(lines);
     text += "## What each needs and what rests on it\n\n";
-    for line in lines {
-        text += &needs(&line.statement);
-    }
-    text
+    lines.iter().fold(text, |text, line| text + &needs(&line.statement))
+}
+
+fn where_seen(lines: &[Line]) -> String {
+    let cells = |(line, worst): (&Line, &Worst)| {
+        let at = worst.at.map_or("–".into(), |[x, y]| format!("({x:.6}, {y:.6})"));
+        vec![
+            line.statement.place.into(),
+            number(worst.ratio),
+            worst.seen.clone(),
+            number(worst.t),
+            at,
+        ]
+    };
+    let seen = lines.iter().filter_map(|line| Some((line, line.worst.as_ref()?)));
+    table(
+        &["statement", "worst / bound", "cell", "t", "at"],
+        &seen.map(cells).collect::<Vec<_>>(),
+    )
+}
+
+fn figures(lines: &[Line]) -> String {
+    let drawn = lines.iter().map(|line| &line.statement);
+    let drawn = drawn.filter(|statement| statement.range.0 < statement.range.1);
+    let figure = |statement: &Statement| {
+        let (place, quantity, name) = (statement.place, statement.quantity, statement.figure_name());
+        format!("![{place}](charts/{name}.png)\n*{place}: {quantity}.* ([SVG](charts/{name}.svg))\n\n")
+    };
+    drawn.map(figure).collect()
 }
 
 fn needs(statement: &Statement) -> String {

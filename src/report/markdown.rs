@@ -31,7 +31,7 @@ pub(super) fn parameter(value: f64) -> String {
 }
 
 /// Text that may hold what Markdown would take for its own.
-pub(crate) fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     text.replace('|', "\\|").replace('\n', " ")
 }
 

@@ -1,5 +1,6 @@
 //! What of a line or a convex area lies in a box: plotters does not clip to the part of a picture that is drawn on.
 
+use crate::geometry::predicates::orient2d;
 use crate::geometry::{DVec2, Rect};
 
 /// The parts of a line through `points` that lie in `frame`.
@@ -43,7 +44,7 @@ pub(super) fn segment([from, to]: [DVec2; 2], frame: Rect) -> Option<[DVec2; 2]>
 
 /// The part of a convex polygon on the left of the line from `from` to `to` (Sutherland and Hodgman).
 pub(super) fn left_of(polygon: &[DVec2], [from, to]: [DVec2; 2]) -> Vec<DVec2> {
-    let side = |point: DVec2| (to - from).perp_dot(point - from);
+    let side = |point: DVec2| orient2d(from, to, point);
     let mut kept = Vec::new();
     for (k, &point) in polygon.iter().enumerate() {
         let next = polygon[(k + 1) % polygon.len()];

@@ -7,6 +7,7 @@
 //! output.
 
 use super::clip;
+use crate::geometry::predicates::{Meeting, segments_meet};
 use crate::geometry::{DVec2, Rect};
 
 /// What is to be placed: pixels, y down.
@@ -131,9 +132,7 @@ fn cost(place: Rect, label: &Wanted, distance: f64, obstacles: &Obstacles, frame
 
 /// Whether two segments cross away from the first end of the second.
 fn crosses([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    let start = c.lerp(d, 0.3);
-    let sides = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
-    sides(a, b, start) * sides(a, b, d) < 0.0 && sides(start, d, a) * sides(start, d, b) < 0.0
+    segments_meet(a, b, c.lerp(d, 0.3), d) == Meeting::Cross
 }
 
 /// What two boxes cost that overlap.

@@ -1,5 +1,6 @@
 //! How what a scene means looks: one place for all figures.
 
+use super::super::style::{BLUE, GREEN, GREY, INK, VERMILION};
 use super::{Fill, Mark, Pen};
 use plotters::prelude::RGBColor;
 
@@ -15,12 +16,7 @@ pub(super) struct Line {
     pub weight: f64,
 }
 
-const INK: RGBColor = super::super::style::INK;
-const BLUE: RGBColor = RGBColor(0, 114, 178);
-const VERMILION: RGBColor = RGBColor(213, 94, 0);
-const GREEN: RGBColor = RGBColor(0, 158, 115);
 const PURPLE: RGBColor = RGBColor(160, 80, 140);
-const GREY: RGBColor = RGBColor(120, 120, 120);
 
 pub(super) fn pen(pen: Pen) -> Line {
     let line = |colour, width, weight| Line {

@@ -13,7 +13,6 @@
 // The parts are private; their links work in `cargo doc --document-private-items`.
 #![allow(rustdoc::private_intra_doc_links)]
 
-mod labels;
 mod outline;
 mod record;
 #[cfg(test)]
@@ -74,13 +73,13 @@ fn recording(cell: &Cell) -> Result<Recording, ReplayError> {
     let store = Store::new(None, false);
     let prepared = store.prepare_for_t(cell).map_err(|error| input(&error))?;
     let request = Request {
-        c_b: cell.c_b,
         seed: cell.seed,
         threads: cell.threads,
         budget: Budget {
             max_vertices: Some(MOST_BITES),
             ..Budget::default()
         },
+        ..Request::new(cell.c_b)
     };
     let mut trace = Trace::watching();
     let mesh = mesher.mesh(&prepared.site.domain, &*prepared.spacing, &request, &mut trace)?;

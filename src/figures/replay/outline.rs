@@ -3,14 +3,10 @@
 use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
 use crate::geometry::segments::closest_on_segment;
-use crate::geometry::tolerance::{NO_ANGLE, RIGHT_ANGLE_DEG};
+use crate::geometry::tolerance::ON_SIDE;
 use crate::mesh::Mesh;
 use crate::meshers::{Bite, Reason};
 use std::collections::BTreeMap;
-
-/// A centre lies on a side if its direction from the notch's vertex is off by less than so many radians: centres on segments
-/// are rounded.
-const ON_SIDE: f64 = 1e-9;
 
 /// The boundary as closed rings of input vertices: filled by the even-odd rule, they are the domain.
 pub(super) fn rings(domain: &Domain) -> Vec<Vec<u32>> {
@@ -88,7 +84,7 @@ fn is_cut_off(is_cut: &[bool], vertex: u32) -> bool {
 pub(super) fn shadows(domain: &Domain, bites: &[Bite]) -> Vec<[u32; 3]> {
     let notches: Vec<(usize, Wedge)> = (0..domain.vertices().len())
         .flat_map(|v| domain.wedges(v).iter().map(move |wedge| (v, *wedge)))
-        .filter(|(_, wedge)| is_notch(wedge))
+        .filter(|(_, wedge)| wedge.is_notch())
         .collect();
     let mut shadows = Vec::new();
     for (k, bite) in bites.iter().enumerate() {
@@ -98,10 +94,6 @@ pub(super) fn shadows(domain: &Domain, bites: &[Bite]) -> Vec<[u32; 3]> {
         shadows.extend(seen.map(|[vertex, end]| [k as u32, vertex, end]));
     }
     shadows
-}
-
-fn is_notch(wedge: &Wedge) -> bool {
-    !wedge.inside && wedge.angle > NO_ANGLE && wedge.angle.to_degrees() < 90.0 - RIGHT_ANGLE_DEG
 }
 
 /// The side of a notch behind which the circle of `bite` has points that its centre cannot see.

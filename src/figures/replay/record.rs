@@ -2,12 +2,12 @@
 //!
 //! Lengths count units of [`Frame::unit`], places units from [`Frame::corner`], y upward.
 
-use super::labels::{self, Label};
 use super::outline;
-use crate::experiment::battery::family::{plain, quoted};
 use crate::experiment::measure;
 use crate::experiment::prepare::Prepared;
 use crate::experiment::record::Cell;
+use crate::experiment::record::{plain, quoted};
+use crate::figures::labels::{self, Label};
 use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use crate::meshers::{Bite, Reason, Waiting};
@@ -159,10 +159,6 @@ fn about(cell: &Cell, prepared: &Prepared, mesh: &Mesh) -> About {
     let (statistics, _) = quality::judge(domain, mesh, None);
     let t = cell.c_b * prepared.spacing.lipschitz();
     let order = measure::complete(cell).get("order").map(plain).unwrap_or_default();
-    let options = cell
-        .params
-        .iter()
-        .map(|(name, value)| format!(" --param {}", quoted(&format!("{name}={}", plain(value)))));
     About {
         domain: domain.name().into(),
         spacing: prepared.spec.clone(),
@@ -170,14 +166,9 @@ fn about(cell: &Cell, prepared: &Prepared, mesh: &Mesh) -> About {
         c_b: cell.c_b,
         t,
         command: format!(
-            "cargo run --release -- figures --replay {} --spacing {} --t {} --c-b {} --seed {}{}{}",
+            "cargo run --release -- figures --replay {}{}",
             quoted(&cell.domain),
-            quoted(&cell.spacing),
-            cell.t,
-            cell.c_b,
-            cell.seed,
-            options.collect::<String>(),
-            if cell.lfs_cap { "" } else { " --no-lfs-cap" }
+            cell.options()
         ),
         min_angle_deg: statistics.min_angle_free_deg,
         min_angle_bound_deg: quality::min_angle_bound_deg(t),

@@ -1,30 +1,13 @@
 use super::*;
 use crate::geometry::DVec2;
 use crate::geometry::segments::closest_on_segment;
-use crate::meshers::parameter_value;
 use std::fs;
 
 /// A page may be so large.
 const MOST_BYTES: usize = 3_000_000;
 
 fn cell(domain: &str, params: &[(&str, &str)]) -> Cell {
-    Cell {
-        domain: domain.into(),
-        mesher: "biting".into(),
-        params: params
-            .iter()
-            .map(|(name, value)| ((*name).into(), parameter_value(value)))
-            .collect(),
-        spacing: "lfs".into(),
-        t: 0.25,
-        c_b: 0.75,
-        seed: 0,
-        lfs_cap: true,
-        triangles: None,
-        threads: 1,
-        poisson: None,
-        timed: false,
-    }
+    Cell::new(domain, "biting", "lfs", 0.25, 0.75).with(params)
 }
 
 fn recorded(domain: &str, params: &[(&str, &str)]) -> Recording {

@@ -1,9 +1,10 @@
 //! Figures 2 and 5.
 
-use super::super::figure5::{lemma_6_3, lemma_6_4};
 use super::super::{figure2, figure5};
 use super::{ROUNDING, is_biting, is_inside, is_on_circle, is_on_segment, material};
 use crate::geometry::DVec2;
+use crate::geometry::near::least_meeting_height;
+use crate::lemmas::statements::least_progressive_height;
 
 #[test]
 fn figure_2_is_edge_protection() {
@@ -50,10 +51,10 @@ fn figure_2_is_edge_protection() {
             .iter()
             .all(|disc| position(disc.centre) < position(found.q.centre))
     );
+    let tried = [found.q1.centre, found.q2.centre];
+    let is_tried = |centre: DVec2| tried.contains(&centre);
     assert!(
-        run.bites
-            .iter()
-            .all(|bite| ![found.q1.centre, found.q2.centre].contains(&bite.centre)),
+        !run.bites.iter().any(|bite| is_tried(bite.centre)),
         "neither q1 nor q2 is bitten"
     );
 }
@@ -64,8 +65,16 @@ fn figure_5_has_r_on_both_circles_and_its_distance() {
     let (run, a) = figure.progressive;
     let (other_run, b) = figure.middle;
     for (run, segment, p1, q, r, h_r, least) in [
-        (run, a.segment, a.p1, a.q, a.r, a.h_r, lemma_6_3(run.t)),
-        (other_run, b.segment, b.p1, b.q, b.r, b.h_r, lemma_6_4(other_run.t)),
+        (run, a.segment, a.p1, a.q, a.r, a.h_r, least_progressive_height(run.t)),
+        (
+            other_run,
+            b.segment,
+            b.p1,
+            b.q,
+            b.r,
+            b.h_r,
+            least_meeting_height(other_run.t),
+        ),
     ] {
         assert!(is_on_circle(r, &p1) && is_on_circle(r, &q) && is_inside(run, r));
         assert!(is_biting(run, &p1) && is_biting(run, &q));
@@ -95,6 +104,6 @@ fn figure_5_has_r_on_both_circles_and_its_distance() {
 
 #[test]
 fn the_lemmas_bounds_are_those_of_equal_circles_where_t_is_0() {
-    assert!((lemma_6_3(0.0) - 3f64.sqrt() / 2.0).abs() < 1e-15);
-    assert!((lemma_6_4(0.0) - 7f64.sqrt() / 4.0).abs() < 1e-15);
+    assert!((least_progressive_height(0.0) - 3f64.sqrt() / 2.0).abs() < 1e-15);
+    assert!((least_meeting_height(0.0) - 7f64.sqrt() / 4.0).abs() < 1e-15);
 }

@@ -1,12 +1,14 @@
 //! §6.2: how high above a segment the circles of neighbouring boundary vertices meet (Lemmas 6.3 and 6.4).
 
 use super::*;
+use crate::geometry::near::{self, least_meeting_height};
 use crate::lemmas::record::{Corrected, Measured};
 
 pub(super) const STATEMENTS: &[Statement] = &[LEMMA_6_3, LEMMA_6_3_STEP, LEMMA_6_4, LEMMA_6_4_STEP, EQUATION_10];
 
 const HEIGHT: Option<Measured> = Some(Measured {
     claim: "boundary-height",
+    sense: Sense::AtLeast,
     quantity: Some(|worst, _, _| worst),
 });
 const LABELLED: &str = "one of two neighbouring boundary vertices is labelled by the other: not so where the circles of the two input vertices of a \
@@ -18,13 +20,23 @@ pub(super) fn meeting_height(b: Number, c: Number) -> Number {
     (number(1.0) - along.square()).root()
 }
 
+/// The upper point of circles of radii 1 and b whose centres are c apart, the first at the origin.
+fn upper_point(b: f64, c: f64) -> Labelled {
+    place("r", (1.0 + c * c - b * b) / (2.0 * c), near::meeting_height(c, 1.0, b))
+}
+
+/// What Lemma 6.3 has h_r / (c_b f(p₁)) be at least, (8); of Lemma 6.4 it is [`least_meeting_height`].
+pub fn least_progressive_height(t: f64) -> f64 {
+    (1.0 - t) * ((3.0 - t) * (1.0 + t)).sqrt() / 2.0
+}
+
 const LEMMA_6_3: Statement = Statement {
     name: "lemma-6.3",
     place: "Lemma 6.3, (8)",
     quantity: "h_r / (c_b f(p₁)) over a progressive piece: q = B(p₁)",
     printed: Bound {
         says: "(1 − t) √((3 − t)(1 + t)) / 2",
-        at: |t| (1.0 - t) * ((3.0 - t) * (1.0 + t)).sqrt() / 2.0,
+        at: least_progressive_height,
     },
     range: (0.0, 0.75),
     range_says: "any t < 1",
@@ -38,11 +50,10 @@ const LEMMA_6_3: Statement = Statement {
     measured: HEIGHT,
     points: |t, v| {
         let b = 1.0 + t * v[0];
-        let along = 1.0 - 0.5 * b * b;
         vec![
             centre("p₁", 0.0, 0.0, 1.0),
             centre("q", 1.0, 0.0, b),
-            place("r", along, (1.0 - along * along).max(0.0).sqrt()),
+            upper_point(b, 1.0),
         ]
     },
     ..PLAIN
@@ -97,18 +108,13 @@ pub(super) fn middle_points(t: f64, v: &[f64]) -> Vec<Labelled> {
     let [d, share, slope] = [v[0], v[1], v[2]];
     let half = 0.5 * share * d;
     let (b, c) = (d + t * slope * half, 1.0 + half);
-    let along = (1.0 + c * c - b * b) / (2.0 * c);
     vec![
         centre("p₁", 0.0, 0.0, 1.0),
         centre("q₁", 1.0, 0.0, d),
         centre("q", c, 0.0, b),
         place("q₂", 1.0 + 2.0 * half, 0.0),
-        place("r", along, (1.0 - along * along).max(0.0).sqrt()),
+        upper_point(b, c),
     ]
-}
-
-fn printed_9(t: f64) -> f64 {
-    (1.0 - t) * ((t * t - 4.0 * t + 7.0) * (1.0 - t * t)).sqrt() / 4.0
 }
 
 const LEMMA_6_4: Statement = Statement {
@@ -117,7 +123,7 @@ const LEMMA_6_4: Statement = Statement {
     quantity: "h_r / (c_b f(p₁)) over a middle piece: q = M(p₁, p₂)",
     printed: Bound {
         says: "(1 − t) √((t² − 4t + 7)(1 − t²)) / 4",
-        at: printed_9,
+        at: least_meeting_height,
     },
     range: (0.0, 0.75),
     range_says: "any t < 1",
@@ -165,7 +171,7 @@ const LEMMA_6_4_STEP: Statement = Statement {
 
 /// The least h_r / c: (9) over c / a = (3 − t) / 2.
 pub(super) fn corrected_10(t: f64) -> f64 {
-    2.0 * printed_9(t) / (3.0 - t)
+    2.0 * least_meeting_height(t) / (3.0 - t)
 }
 
 const EQUATION_10: Statement = Statement {
@@ -174,7 +180,7 @@ const EQUATION_10: Statement = Statement {
     quantity: "h_r / c over a middle piece, c = |p₁q|",
     printed: Bound {
         says: "(1 − t)(3 − t) √((t² − 4t + 7)(1 − t²)) / 8",
-        at: |t| printed_9(t) * (3.0 - t) / 2.0,
+        at: |t| least_meeting_height(t) * (3.0 - t) / 2.0,
     },
     range: (0.0, 0.75),
     range_says: "any t < 1",

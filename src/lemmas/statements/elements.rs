@@ -68,6 +68,7 @@ const LEMMA_6_2: Statement = Statement {
     },
     measured: Some(Measured {
         claim: "min-angle",
+        sense: Sense::AtLeast,
         quantity: Some(|degrees, _, _| degrees.to_radians().sin()),
     }),
     ..LEMMA_6_1

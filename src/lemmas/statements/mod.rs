@@ -16,6 +16,8 @@ mod neighbours;
 mod packing;
 mod second;
 
+pub use boundary::least_progressive_height;
+
 /// Every statement with a bound, in the order of the paper.
 pub fn all() -> Vec<Statement> {
     let parts = [

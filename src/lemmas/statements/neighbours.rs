@@ -55,6 +55,7 @@ const LEMMA_5_7_LOWER: Statement = Statement {
     }),
     measured: Some(Measured {
         claim: "nn-vertex-lower",
+        sense: Sense::AtLeast,
         quantity: Some(|worst, c_b, _| worst / c_b),
     }),
     points: two_circles,
@@ -89,6 +90,7 @@ const LEMMA_5_7_UPPER: Statement = Statement {
     },
     measured: Some(Measured {
         claim: "nn-vertex-upper",
+        sense: Sense::AtMost,
         quantity: Some(|worst, c_b, _| worst / c_b),
     }),
     points: |t, v| two_circles(t, &[(2.0 - v[0]) / (1.0 - t * v[1]), v[1]]),
@@ -135,6 +137,7 @@ const LEMMA_5_8_LOWER: Statement = Statement {
     }),
     measured: Some(Measured {
         claim: "nn-point-lower",
+        sense: Sense::AtLeast,
         quantity: Some(|worst, c_b, _| worst / c_b),
     }),
     points: |t, v| {
@@ -199,6 +202,7 @@ const LEMMA_5_8_UPPER: Statement = Statement {
     }),
     measured: Some(Measured {
         claim: "nn-point-upper",
+        sense: Sense::AtMost,
         quantity: Some(|worst, c_b, _| worst / c_b),
     }),
     points: |t, v| {
@@ -250,6 +254,7 @@ const THEOREM_5_11_LOWER: Statement = Statement {
     },
     measured: Some(Measured {
         claim: "vertices-lower",
+        sense: Sense::AtLeast,
         quantity: None,
     }),
     ..PLAIN
@@ -283,6 +288,7 @@ const THEOREM_5_11_UPPER: Statement = Statement {
     },
     measured: Some(Measured {
         claim: "vertices-upper",
+        sense: Sense::AtMost,
         quantity: None,
     }),
     ..PLAIN

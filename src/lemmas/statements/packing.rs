@@ -128,6 +128,7 @@ const LEMMA_5_4: Statement = Statement {
     },
     measured: Some(Measured {
         claim: "packing-disjoint",
+        sense: Sense::AtLeast,
         quantity: Some(|worst, _, t| worst / (2.0 + t)),
     }),
     points: two_circles,

@@ -3,11 +3,8 @@
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::segments::closest_on_segment;
+use crate::geometry::tolerance::ON_CIRCLE as ON;
 use crate::meshers::{Bite, Reason};
-
-/// A point lies on a circle, or on a segment, if it is off by less than this share of the circle's radius: points on segments
-/// are rounded, and biting shrinks circles by far less.
-const ON: f64 = 1e-6;
 
 /// The label of a bite of edge protection.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +35,7 @@ pub(super) fn label(domain: &Domain, bites: &[Bite], k: usize) -> Option<Label> 
 }
 
 /// The bite whose circle passes through `q`, best one centred on the segment itself.
-fn circle_through(bites: &[Bite], ends: [DVec2; 2], q: DVec2) -> Option<usize> {
+pub(super) fn circle_through(bites: &[Bite], ends: [DVec2; 2], q: DVec2) -> Option<usize> {
     let off_circle = |bite: &Bite| (bite.centre.distance(q) - bite.radius).abs() / bite.radius;
     let through = (0..bites.len()).filter(|&k| off_circle(&bites[k]) < ON);
     through.min_by(|&one, &other| {
