@@ -167,5 +167,14 @@ fn committed_meshes_keep_every_bound() {
         let sense = statement.measured.map_or(statement.sense, |measured| measured.sense);
         let kept = sense.allows(1.0, worst.ratio, 1e-6);
         assert!(kept && worst.meshes > 100, "{}: {worst:?}", statement.name);
+        // What its figure shows of meshes is on the safe side of the printed formula too.
+        for (t, value) in meshes.by_t(&statement) {
+            let bound = (statement.printed.at)(t);
+            assert!(
+                statement.sense.allows(bound, value, 1e-6),
+                "{} at {t}: {value}",
+                statement.name
+            );
+        }
     }
 }

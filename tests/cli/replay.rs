@@ -29,6 +29,8 @@ fn what_is_too_large_or_not_there_is_told() {
     let (_, err) = run(folder.path(), &fine, 4);
     assert!(err.contains("20000"), "{err}");
     run(folder.path(), &["figures", "--replay", "nowhere"], 2);
+    // Without a replay these options would say nothing.
+    run(folder.path(), &["figures", "--t", "0.1"], 2);
     run(
         folder.path(),
         &["figures", "--replay", "l-shape", "--param", "order=none"],

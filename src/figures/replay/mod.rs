@@ -3,7 +3,7 @@
 //! # Parts
 //! * [`record`](mod@record) runs biting through a [`Trace`] that notes every bite, and turns what it noted into a
 //!   [`Recording`]: columns of whole numbers, small enough to stand in the page;
-//! * [`labels`] finds p₁ and p₂ of the paper's labels B(p₁) and M(p₁, p₂);
+//! * [`labels`](super::labels) finds p₁ and p₂ of the paper's labels B(p₁) and M(p₁, p₂);
 //! * [`outline`] has what is drawn besides circles: rings of the domain, the first front, corners cut off, and what a circle
 //!   cannot see;
 //! * `page.html`, `replay.css` and the scripts `state.js` (what is so after k bites, and why: functions without side
