@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-BITING = "target/release/biting"
+BITING = os.environ.get("BITING", "target/release/biting")
 PAIRS = [(0.25, 0.25), (0.25, 0.75)]
 MIN_ANGLE = 14.47
 SECONDS = 300

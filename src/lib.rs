@@ -16,6 +16,7 @@
 //! | [`fem`] | what quality is for: a Poisson problem on the mesh, its error, iterations and eigenvalues |
 //! | [`experiment`] | plans (TOML), the runner, records (JSON lines) |
 //! | [`charts`], [`report`] | figures by plotters, pages from rows alone |
+//! | [`lemmas`] | every statement of the paper with a bound, judged numerically and on meshes; errata |
 //! | [`figures`] | the paper's figures from real runs, and the replay |
 //! | [`cli`] | one file per verb |
 //!
@@ -37,6 +38,7 @@ pub mod fem;
 pub mod figures;
 pub mod files;
 pub mod geometry;
+pub mod lemmas;
 pub mod mesh;
 pub mod meshers;
 pub mod peers;

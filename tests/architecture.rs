@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules in pipeline order, each with those it may not import although they stand to its left.
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 15] = [
     "geometry",
     "domain",
     "mesh",
@@ -17,6 +17,7 @@ const ORDER: [&str; 14] = [
     "experiment",
     "charts",
     "report",
+    "lemmas",
     "figures",
     "cli",
 ];

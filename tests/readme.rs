@@ -42,6 +42,9 @@ fn commands_run_as_written() {
         command.args(&arguments);
         if ["sweep", "compare"].contains(&arguments[0].as_str()) {
             command.arg("--dry-run").current_dir(root);
+        } else if arguments[0] == "figures" {
+            // They are drawn from the rows of this checkout, and its pictures are to stay.
+            command.arg("--out").arg(folder.path()).current_dir(root);
         } else {
             command.current_dir(folder.path());
         }

@@ -165,7 +165,7 @@ fn averaged(pixels: &[u8], width: usize, height: usize) -> Vec<[u8; 3]> {
 }
 
 /// Registers the font, once.
-fn register() {
+pub(super) fn register() {
     static DONE: OnceLock<()> = OnceLock::new();
     DONE.get_or_init(|| {
         // The fonts are constants that parse; were they not, drawing text would say so.

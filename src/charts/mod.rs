@@ -4,6 +4,7 @@
 
 mod angles;
 mod bitmap;
+mod bounds;
 mod canvas;
 mod corners;
 mod dots;
@@ -18,11 +19,13 @@ mod panel;
 mod poisson;
 mod rivals;
 mod rules;
+pub mod scene;
 mod size;
 mod style;
 mod time;
 
 pub use angles::smallest_angle;
+pub use bounds::{BoundFigure, bound};
 pub use canvas::ChartError;
 pub use corners::{side_by_side, window};
 pub use frontier::size_for_angle;
@@ -35,4 +38,4 @@ pub use poisson::{YIELDS, Yield, poisson};
 pub use rivals::{domains, methods, methods_against_t, seams};
 pub use rules::rules;
 pub use size::{Measure, SIZE_RATIO, SIZE_RATIO_LFS, Titled, against_t, efficiency, heat_map};
-pub use time::{time, time_by_method};
+pub use time::{time, time_by_method, time_per_triangle};

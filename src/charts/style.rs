@@ -24,11 +24,16 @@ pub(super) const SMALL: i32 = 18;
 /// Numbers within a figure.
 pub(super) const TINY: i32 = 15;
 
+/// The first three of the categories, by name.
+pub(super) const BLUE: RGBColor = RGBColor(0, 114, 178);
+pub(super) const VERMILION: RGBColor = RGBColor(213, 94, 0);
+pub(super) const GREEN: RGBColor = RGBColor(0, 158, 115);
+
 /// Okabe and Ito's colours, the black last and the yellow left out since it vanishes on white.
 const CATEGORIES: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
+    BLUE,
+    VERMILION,
+    GREEN,
     RGBColor(204, 121, 167),
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),

@@ -18,7 +18,33 @@ pub fn time(series: &[TimeSeries], stem: &Path) -> Result<(), ChartError> {
     let lines = series.iter().enumerate().map(|(k, series)| (marker(k), series.clone()));
     let figure = Time {
         heading: "step, fitted slope",
+        unit: "time (seconds)",
         lines: lines.collect(),
+    };
+    write_both(&figure, stem)
+}
+
+/// Draws microseconds a triangle against triangles, log-log: the whole run and each of its steps, with fitted slopes, which are
+/// 0 where time is linear.
+///
+/// # Errors
+/// [`ChartError`].
+pub fn time_per_triangle(series: &[TimeSeries], stem: &Path) -> Result<(), ChartError> {
+    let line = |(k, series): (usize, &TimeSeries)| {
+        let points = series
+            .points
+            .iter()
+            .map(|(triangles, seconds)| (*triangles, 1e6 * seconds / triangles));
+        let series = TimeSeries {
+            name: series.name.clone(),
+            points: points.collect(),
+        };
+        (Marker::new(k, style::category(k)), series)
+    };
+    let figure = Time {
+        heading: "step, fitted slope",
+        unit: "time a triangle (µs)",
+        lines: series.iter().enumerate().map(line).collect(),
     };
     write_both(&figure, stem)
 }
@@ -34,6 +60,7 @@ pub fn time_by_method(contest: &Contest, stem: &Path) -> Result<(), ChartError> 
     };
     let figure = Time {
         heading: "mesher, fitted slope",
+        unit: "time (seconds)",
         lines: contest.methods.iter().enumerate().map(line).collect(),
     };
     write_both(&figure, stem)
@@ -41,6 +68,7 @@ pub fn time_by_method(contest: &Contest, stem: &Path) -> Result<(), ChartError> 
 
 struct Time {
     heading: &'static str,
+    unit: &'static str,
     lines: Vec<(Marker, TimeSeries)>,
 }
 
@@ -55,7 +83,7 @@ impl Figure for Time {
         let (left, right) = area.split_horizontally((1200 - side) * FINE);
         let all = || self.lines.iter().flat_map(|(_, series)| series.points.iter());
         let x = Axis::log("triangles", log_span(all().map(|point| point.0)));
-        let y = Axis::log("time (seconds)", log_span(all().map(|point| point.1)));
+        let y = Axis::log(self.unit, log_span(all().map(|point| point.1)));
         let mut panel = Panel::new(&left, "", x, y, 90)?;
         let mut entries: Vec<Entry> = vec![(Key::Heading, self.heading.into())];
         for (marker, series) in &self.lines {

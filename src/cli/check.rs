@@ -82,19 +82,11 @@ impl Arguments {
     }
 
     fn cell(&self, spacing: &str, t: f64, c_b: f64) -> Cell {
+        let mesher = self.mesher.as_deref().unwrap_or_default();
         Cell {
-            domain: self.domain.clone(),
-            mesher: self.mesher.clone().unwrap_or_default(),
             params: self.params(),
-            spacing: spacing.into(),
-            t,
-            c_b,
-            seed: 0,
             lfs_cap: !self.no_lfs_cap,
-            triangles: None,
-            threads: 1,
-            poisson: None,
-            timed: false,
+            ..Cell::new(&self.domain, mesher, spacing, t, c_b)
         }
     }
 }

@@ -1,8 +1,9 @@
 //! `mesh DOMAIN`: one mesh, its files and its report.
 
+use super::asked::Asked;
 use super::exit::{Failure, Outcome};
 use super::output::{self, STDOUT, Target, say, say_aside};
-use super::values::{bytes, parameter, positive};
+use super::values::{bytes, positive};
 use super::watch;
 use crate::domain::Domain;
 use crate::experiment::machine;
@@ -12,14 +13,7 @@ use crate::experiment::record::{Cell, Report};
 use crate::experiment::runner;
 use crate::meshers::{Budget, Entry, MeshError, Mesher, Request};
 use crate::spacing;
-use serde_json::Value;
 use std::time::Duration;
-
-/// The default of `--t`: see the page of findings in `results/sweep`.
-pub const DEFAULT_T: &str = "0.25";
-
-/// The default of `--c-b`: see the page of findings in `results/sweep`.
-pub const DEFAULT_C_B: &str = "0.75";
 
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -28,27 +22,11 @@ pub struct Arguments {
     /// The method; `biting list` shows all
     #[arg(long, default_value = "biting")]
     mesher: String,
-    /// Control spacing f: lfs, uniform:H, expr:EXPRESSION in x and y, min(A, B)
-    #[arg(long, value_name = "SPEC", default_value = "lfs")]
-    spacing: String,
-    /// Edge length wanted, an expression in x and y, in place of --spacing (f = size / c_b)
-    #[arg(long, value_name = "EXPRESSION", conflicts_with = "spacing")]
-    size: Option<String>,
-    /// t = alpha c_b: the spacing is limited to the Lipschitz constant t / c_b
-    #[arg(long, value_parser = positive, default_value = DEFAULT_T)]
-    t: f64,
-    /// Biting constant: edges are about c_b f long
-    #[arg(long, value_parser = positive, default_value = DEFAULT_C_B)]
-    c_b: f64,
-    /// Seed of everything random
-    #[arg(long, default_value_t = 0)]
-    seed: u64,
+    #[command(flatten)]
+    asked: Asked,
     /// Threads a mesher may use; the mesh does not depend on it [default: all cores]
     #[arg(long)]
     threads: Option<usize>,
-    /// A parameter of the mesher, name=value; may be repeated
-    #[arg(long, value_name = "NAME=VALUE", value_parser = parameter)]
-    param: Vec<(String, Value)>,
     /// A mesh file by its ending (.node .vtu .msh .obj .svg .png .json), the domain itself (.poly), or - for JSON on
     /// standard output; may be repeated
     #[arg(long, value_name = "FILE")]
@@ -68,9 +46,6 @@ pub struct Arguments {
     /// Most memory of the process, such as 4G
     #[arg(long, value_name = "BYTES", value_parser = bytes)]
     max_memory: Option<u64>,
-    /// Do not cap the spacing by local feature size; the bounds of the paper no longer apply
-    #[arg(long)]
-    no_lfs_cap: bool,
     /// How close limiting comes to the largest spacing it could keep, below 1 [default: 0.9]
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     limit_factor: Option<f64>,
@@ -91,7 +66,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             "--out and --report both name {both}; write the report to a file of its own"
         )));
     }
-    let cell = arguments.cell()?;
+    let cell = arguments.asked.cell(&arguments.domain, &arguments.mesher)?;
     let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
     let request = arguments.request();
     let (store, prepared) = arguments.prepare(&cell, &request.budget)?;
@@ -123,27 +98,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    fn cell(&self) -> Result<Cell, Failure> {
-        let spacing = match &self.size {
-            Some(size) => spacing::spec_for_size(size, self.c_b).map_err(Failure::input)?,
-            None => self.spacing.clone(),
-        };
-        Ok(Cell {
-            domain: self.domain.clone(),
-            mesher: self.mesher.clone(),
-            params: self.param.iter().cloned().collect(),
-            spacing,
-            t: self.t,
-            c_b: self.c_b,
-            seed: self.seed,
-            lfs_cap: !self.no_lfs_cap,
-            triangles: None,
-            threads: 1,
-            poisson: None,
-            timed: false,
-        })
-    }
-
     /// Domain and spacing, within a budget that each of the two may use up.
     fn prepare(&self, cell: &Cell, budget: &Budget) -> Result<(Store, Prepared), Failure> {
         let (store, now) = (Store::new(self.limit_factor, self.repair), Duration::ZERO);
@@ -185,8 +139,8 @@ impl Arguments {
     fn request(&self) -> Request {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         Request {
-            c_b: self.c_b,
-            seed: self.seed,
+            c_b: self.asked.c_b,
+            seed: self.asked.seed,
             threads: self.threads.unwrap_or_else(cores).max(1),
             budget: Budget {
                 max_vertices: self.max_vertices,

@@ -6,11 +6,13 @@
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
+mod asked;
 mod battery;
 mod check;
 mod compare;
 mod exit;
 mod figures;
+mod lemmas;
 mod list;
 mod mesh;
 mod output;
@@ -41,6 +43,8 @@ enum Verb {
     Compare(compare::Arguments),
     /// Draw the paper's figures from real runs, or write a replay of one
     Figures(figures::Arguments),
+    /// Judge every bound of the paper: against its numerical optimum, and against measured meshes
+    Lemmas(lemmas::Arguments),
     /// Make charts and pages again from the rows alone
     Report(report::Arguments),
     /// List domains, meshers with parameters, spacings, peers and experiments
@@ -58,6 +62,7 @@ pub fn main() -> ExitCode {
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Figures(arguments) => figures::run(&arguments),
+        Verb::Lemmas(arguments) => lemmas::run(&arguments),
         Verb::Report(arguments) => report::run(&arguments),
         Verb::List => list::run(),
         Verb::RunCases => battery::work(),

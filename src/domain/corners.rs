@@ -1,7 +1,7 @@
 //! Angles between neighbouring segments at every vertex: the input angles the paper's hypothesis is about (§5.1).
 
 use super::{Domain, Face, Segment};
-use crate::geometry::tolerance::{ACUTE_MARGIN, NO_ANGLE};
+use crate::geometry::tolerance::{ACUTE_MARGIN, NO_ANGLE, RIGHT_ANGLE_DEG};
 use crate::geometry::{DVec2, turn};
 use std::f64::consts::{FRAC_PI_3, TAU};
 
@@ -18,6 +18,13 @@ pub struct Wedge {
     pub face: usize,
     /// Whether that face belongs to the domain.
     pub inside: bool,
+}
+
+impl Wedge {
+    /// Whether it is an angle under 90° that opens to the outside.
+    pub fn is_notch(&self) -> bool {
+        !self.inside && self.angle > NO_ANGLE && self.angle.to_degrees() < 90.0 - RIGHT_ANGLE_DEG
+    }
 }
 
 /// The wedges of every vertex and what follows from them.
@@ -114,6 +121,11 @@ impl Domain {
     /// The smallest angle between two segments at a common vertex on any side, in degrees; 360 if none meet.
     pub fn smallest_segment_angle_deg(&self) -> f64 {
         self.corners.smallest_segment.to_degrees()
+    }
+
+    /// Whether no two neighbouring segments meet at an angle under 90° on any side, as §5.1 assumes.
+    pub fn has_no_acute_angle(&self) -> bool {
+        self.smallest_segment_angle_deg() >= 90.0 - RIGHT_ANGLE_DEG
     }
 
     /// The vertices with an angle under 60° that opens into the domain, in order: triangles that touch them are

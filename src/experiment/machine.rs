@@ -7,8 +7,10 @@ use std::time::{SystemTime, UNIX_EPOCH};
 /// Version, commit, compiler and machine of this process, dated now. What cannot be learnt stays empty.
 pub fn provenance() -> Provenance {
     let commit = git(&["rev-parse", "HEAD"]).unwrap_or_default();
-    // Results are what a run writes, so they do not make a work tree dirty.
-    let changes = git(&["status", "--porcelain", "--untracked-files=no", "--", ".", ":!results"]).unwrap_or_default();
+    // Results and their findings in the README are what a run writes, so they do not make a work tree dirty.
+    let written = [".", ":!results", ":!README.md"];
+    let status = ["status", "--porcelain", "--untracked-files=no", "--"];
+    let changes = git(&[&status[..], &written].concat()).unwrap_or_default();
     Provenance {
         version: env!("CARGO_PKG_VERSION").into(),
         dirty: !changes.is_empty(),

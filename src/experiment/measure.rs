@@ -180,20 +180,7 @@ mod tests {
     #[test]
     fn defaults_complete_what_a_cell_names() {
         for entry in meshers::MESHERS {
-            let mut cell = Cell {
-                domain: "unit-square".into(),
-                mesher: entry.name.into(),
-                params: Map::new(),
-                spacing: "lfs".into(),
-                t: 0.25,
-                c_b: 0.5,
-                seed: 0,
-                lfs_cap: true,
-                triangles: None,
-                threads: 1,
-                poisson: None,
-                timed: false,
-            };
+            let mut cell = Cell::new("unit-square", entry.name, "lfs", 0.25, 0.5);
             let defaults = complete(&cell);
             assert_eq!(defaults.len(), entry.parameters.len(), "{}", entry.name);
             assert!((entry.make)(&defaults).is_ok(), "{}: its defaults make it", entry.name);

@@ -1,6 +1,7 @@
 //! A [`Report`] says all about one mesh; a [`Row`] is one line of an experiment, failures included.
 
 use crate::fem::Solution;
+use crate::meshers::parameter_value;
 use crate::quality::{Certificate, Statistics};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -204,6 +205,21 @@ pub struct Cell {
     pub timed: bool,
 }
 
+/// A parameter's value as the command line takes it.
+pub(crate) fn plain(value: &serde_json::Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// Quoted where a shell would take it for more than a word.
+pub(crate) fn quoted(text: &str) -> String {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || "-_.,:=/".contains(c);
+    if text.chars().all(is_word) {
+        text.to_owned()
+    } else {
+        format!("'{}'", text.replace('\'', "'\\''"))
+    }
+}
+
 fn one() -> usize {
     1
 }
@@ -215,6 +231,47 @@ fn is_one(threads: &usize) -> bool {
 }
 
 impl Cell {
+    /// A mesher with its defaults on a domain: f capped by lfs, seed 0, one thread, not timed.
+    pub fn new(domain: &str, mesher: &str, spacing: &str, t: f64, c_b: f64) -> Self {
+        Self {
+            domain: domain.into(),
+            mesher: mesher.into(),
+            params: serde_json::Map::new(),
+            spacing: spacing.into(),
+            t,
+            c_b,
+            seed: 0,
+            lfs_cap: true,
+            triangles: None,
+            threads: 1,
+            poisson: None,
+            timed: false,
+        }
+    }
+
+    /// The same with these parameters, written as on the command line.
+    pub fn with(mut self, params: &[(&str, &str)]) -> Self {
+        let params = params.iter();
+        self.params
+            .extend(params.map(|(name, value)| ((*name).to_owned(), parameter_value(value))));
+        self
+    }
+
+    /// Spacing, t, c_b, seed, parameters and cap as the command line takes them, each with a blank before it.
+    pub fn options(&self) -> String {
+        let params = self.params.iter();
+        let params = params.map(|(name, value)| format!(" --param {}", quoted(&format!("{name}={}", plain(value)))));
+        format!(
+            " --spacing {} --t {} --c-b {} --seed {}{}{}",
+            quoted(&self.spacing),
+            self.t,
+            self.c_b,
+            self.seed,
+            params.collect::<String>(),
+            if self.lfs_cap { "" } else { " --no-lfs-cap" }
+        )
+    }
+
     /// The cell with another c_b for the same spacing: α = t / c_b stays.
     pub fn scaled_to(&self, c_b: f64) -> Self {
         Self {

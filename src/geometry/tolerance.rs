@@ -66,3 +66,18 @@ pub const REPAIR_GRID: f64 = 1.0 / (1u64 << 32) as f64;
 /// Gradient limiting: a lower bound of f is taken this share of the largest coordinate lower. Distances and their
 /// differences are computed to a few ulp of the coordinates.
 pub const LOWER_BOUND: f64 = 16.0 * f64::EPSILON;
+
+/// Figures: a point lies on a circle, or on a segment, if it is off by less than this share of the circle's radius. Points on
+/// segments are rounded, and biting shrinks circles by far less ([`COVERED`]).
+pub const ON_CIRCLE: f64 = 1e-6;
+
+/// Figures: parts of a circle, in radians, and of a segment, as a share of it, that are shorter are rounding where others meet.
+pub const NOTHING: f64 = 1e-6;
+
+/// Figures: corners of a triangle are pulled in by this share of the way to its middle before they are looked at, since corners on
+/// a segment lie beside it by rounding and would be hidden by it.
+pub const PULLED_IN: f64 = 1e-6;
+
+/// Replay: a centre lies on a side of a notch if its direction from the notch's vertex is off by less than so many radians:
+/// centres on segments are rounded.
+pub const ON_SIDE: f64 = 1e-9;

@@ -81,8 +81,7 @@ impl Guarantee {
 /// Whether neither the domain nor the request needs anything that the paper does not have: no angle under 90° between
 /// neighbouring segments, inside or outside, and c_b + t ≤ 1, which the rule of the later point has no need of.
 fn is_plain(domain: &Domain, spacing: &dyn Spacing, c_b: f64, rule: Rule) -> bool {
-    domain.smallest_segment_angle_deg() >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
-        && (rule == Rule::Later || c_b + c_b * spacing.lipschitz() <= 1.0)
+    domain.has_no_acute_angle() && (rule == Rule::Later || c_b + c_b * spacing.lipschitz() <= 1.0)
 }
 
 impl Entry {
@@ -194,6 +193,18 @@ pub struct Request {
     pub threads: usize,
     /// Where to give up.
     pub budget: Budget,
+}
+
+impl Request {
+    /// With this biting constant: seed 0, one thread, no budget.
+    pub fn new(c_b: f64) -> Self {
+        Self {
+            c_b,
+            seed: 0,
+            threads: 1,
+            budget: Budget::default(),
+        }
+    }
 }
 
 /// Why there is no mesh.

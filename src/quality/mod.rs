@@ -83,7 +83,7 @@ mod tally;
 #[cfg(test)]
 mod tests;
 
-pub use shape::angles_deg;
+pub use shape::{angles_deg, circumcentre};
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;

@@ -241,14 +241,14 @@ pub(super) fn claims(rows: &[Row]) -> Vec<ClaimTally> {
 }
 
 /// The rows of one group of the plan that the paper's own method made.
-pub(super) fn ours<'a>(rows: &'a [Row], group: &str) -> Vec<&'a Row> {
+pub(crate) fn ours<'a>(rows: &'a [Row], group: &str) -> Vec<&'a Row> {
     let mut own = of_group(rows, group);
     own.retain(|row| is_ours(row));
     own
 }
 
 /// The grid rows of the paper's own method by spacing.
-pub(super) fn grids(rows: &[Row]) -> Vec<(String, Grid<'_>)> {
+pub(crate) fn grids(rows: &[Row]) -> Vec<(String, Grid<'_>)> {
     let split = by_spacing(&ours(rows, "grid"));
     split.into_iter().map(|(title, rows)| (title, Grid::of(rows))).collect()
 }

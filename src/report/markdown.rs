@@ -3,7 +3,7 @@
 use crate::experiment::summary::rounded;
 
 /// `value` with three digits that count, `–` where there is none.
-pub(super) fn number(value: impl Into<Option<f64>>) -> String {
+pub(crate) fn number(value: impl Into<Option<f64>>) -> String {
     match value.into() {
         Some(0.0) => "0".into(),
         Some(value) if value.is_finite() => {
@@ -36,7 +36,7 @@ pub(super) fn plain(text: &str) -> String {
 }
 
 /// A table; every line has as many cells as `head`. Columns of numbers are set to the right.
-pub(super) fn table(head: &[&str], lines: &[Vec<String>]) -> String {
+pub(crate) fn table(head: &[&str], lines: &[Vec<String>]) -> String {
     let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     let numeric =
         |text: &String| text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit() || "–-(".contains(c));

@@ -11,7 +11,7 @@ mod duels;
 mod figures;
 mod findings;
 mod frontiers;
-mod markdown;
+pub(crate) mod markdown;
 mod meshes;
 mod page;
 mod peers;
@@ -27,6 +27,7 @@ mod fixture;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use findings::{grids, ours};
 pub use quote::quote_findings;
 
 use crate::charts::ChartError;
@@ -115,7 +116,7 @@ fn heading(folder: &Path) -> page::Heading {
 }
 
 /// The rows, sorted by what was asked, since cells that run side by side end in any order.
-fn read(path: &Path) -> Result<Vec<Row>, JournalError> {
+pub(crate) fn read(path: &Path) -> Result<Vec<Row>, JournalError> {
     let mut rows: Vec<Row> = read_rows(path)?;
     rows.sort_by(|a, b| {
         let names = |row: &Row| (row.group.clone(), row.cell.spacing.clone(), row.cell.domain.clone());

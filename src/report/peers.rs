@@ -32,7 +32,7 @@ pub(super) fn peers(rows: &[Row]) -> String {
             (0..contests[0].1.tasks.len()).all(|other| contests[0].1.tasks[other].spacing != timed.tasks[*task].spacing)
         })
         .map(|task| task_table(&timed, task, "equal edge length, once"));
-    who_was_there(rows) + &tasks.chain(largest).collect::<String>() + &threads(rows)
+    who_was_there(rows) + &tasks.chain(largest).collect::<String>() + &boundaries(rows) + &threads(rows)
 }
 
 /// Version of each peer, what it needs before it meshes, how many of its cells it measured.
@@ -80,6 +80,42 @@ fn who_was_there(rows: &[Row]) -> String {
      function in memory to the mesh in memory; what comes before is told here, in medians.\n\n"
         .to_owned()
         + &table(&head, &asked.map(|entry| line(entry.name)).collect::<Vec<_>>())
+}
+
+/// What the meshes of peers do to the boundary: how many conform, and what the others break, on which domains.
+fn boundaries(rows: &[Row]) -> String {
+    let is_broken = |row: &&&Row| row.outcome == Outcome::Failed && row.report.is_some();
+    let line = |name: &'static str| {
+        let own: Vec<&Row> = rows.iter().filter(|row| row.cell.mesher == name).collect();
+        let broken: Vec<&&Row> = own.iter().filter(is_broken).collect();
+        let made = own.iter().filter(|row| row.report.is_some()).count();
+        let domains = first_seen(broken.iter().map(|row| row.cell.domain.as_str()));
+        let claims = broken.iter().filter_map(|row| row.report.as_ref());
+        let claims = claims.flat_map(|report| report.certificate.broken().map(|check| check.claim.as_str()));
+        vec![
+            name.to_owned(),
+            format!("{} of {made}", made - broken.len()),
+            if broken.is_empty() {
+                "–".into()
+            } else {
+                domains.join(", ")
+            },
+            if broken.is_empty() {
+                "–".into()
+            } else {
+                first_seen(claims).join(", ")
+            },
+        ]
+    };
+    let asked = PEERS.iter().filter(|entry| {
+        rows.iter()
+            .any(|row| row.cell.mesher == entry.name && row.report.is_some())
+    });
+    let lines: Vec<_> = asked.map(|entry| line(entry.name)).collect();
+    "### What becomes of the boundary\n\nA mesh conforms if every input vertex and segment is there, nothing overlaps and the area is the domain's. Ours \
+     must, by their certificates.\n\n"
+        .to_owned()
+        + &table(&["mesher", "meshes that conform", "broken on", "breaks"], &lines)
 }
 
 /// Speed by number of threads, of the methods that were run with several.
@@ -131,13 +167,23 @@ fn task_table(contest: &Contest, task: usize, title: &str) -> String {
     format!("### {}, `{}`, at {title}{wanted}\n\n", asked.domain, asked.spacing) + &table(&head, &lines)
 }
 
+/// How a row ended and why, the reason once.
+fn told(how: &str, row: &Row) -> String {
+    let reason = row.reason.as_deref().unwrap_or_default();
+    let reason = reason
+        .strip_prefix(how)
+        .and_then(|rest| rest.strip_prefix(": "))
+        .unwrap_or(reason);
+    format!("{how}: {reason}")
+}
+
 /// A line of a task's table: also of a mesh that does not conform, with what it breaks.
 fn task_line(row: &Row, label: &str) -> Vec<String> {
     let reason = match row.outcome {
         Outcome::Measured => String::new(),
-        Outcome::Skipped => format!("skipped: {}", row.reason.as_deref().unwrap_or_default()),
-        Outcome::Declined => format!("declined: {}", row.reason.as_deref().unwrap_or_default()),
-        Outcome::Failed => format!("failed: {}", row.reason.as_deref().unwrap_or_default()),
+        Outcome::Skipped => told("skipped", row),
+        Outcome::Declined => told("declined", row),
+        Outcome::Failed => told("failed", row),
     };
     let Some(report) = &row.report else {
         let blank = std::iter::repeat_n("–".to_owned(), 11);

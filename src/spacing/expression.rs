@@ -12,10 +12,10 @@
 
 use super::gradient::Gradient;
 use super::grammar::{self, GrammarError};
-use super::interval::Interval;
 use super::program::Program;
 use super::{Rect, Spacing};
 use crate::geometry::DVec2;
+use crate::geometry::interval::Interval;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 

@@ -6,8 +6,8 @@
 //! derivatives of all sides, so `slope` is a Lipschitz constant of f on the (convex) cell. Where f has no bounded
 //! derivative, the slope is infinite.
 
-use super::interval::Interval;
 use super::program::{Binary, Number, Unary};
+use crate::geometry::interval::Interval;
 
 /// Value and gradient, each enclosed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,7 +21,7 @@ mod gradient;
 mod gradient_limit;
 mod grammar;
 mod integral;
-mod interval;
+
 mod lfs;
 #[cfg(test)]
 mod limit_tests;

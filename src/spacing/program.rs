@@ -10,7 +10,7 @@
 //! exmex 0.21 reads `-x^2` as (−x)², knows no exponents in numbers, misreads two-argument functions inside one another,
 //! and cannot differentiate abs, min and max. Its symbolic derivatives are the oracle of the tests instead.
 
-use super::interval::Interval;
+use crate::geometry::interval::Interval;
 
 /// Deepest stack a program may need; a hand-written size function needs fewer than 10.
 const STACK: usize = 24;

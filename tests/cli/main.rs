@@ -11,6 +11,7 @@ mod compare;
 #[cfg(unix)]
 mod disk;
 mod fingerprints;
+mod replay;
 mod sweep;
 
 fn biting(folder: &Path) -> Command {
@@ -44,6 +45,15 @@ fn names(folder: &Path) -> Vec<String> {
 const CROSSED: &str = "4 2 0 0\n1 0 0\n2 1 1\n3 1 0\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
 
 #[test]
+fn one_figure_alone_is_four_files_and_the_table() {
+    let folder = folder();
+    run(folder.path(), &["figures", "--only", "figure1", "--out", "."], 0);
+    assert_eq!(names(folder.path()), ["README.md", "figures"]);
+    let files = ["figure1.json", "figure1.md", "figure1.png", "figure1.svg"];
+    assert_eq!(names(&folder.path().join("figures")), files);
+}
+
+#[test]
 fn bad_input_is_told_in_one_message_with_file_line_and_remedy() {
     let folder = folder();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
@@ -54,6 +64,11 @@ fn bad_input_is_told_in_one_message_with_file_line_and_remedy() {
     for (arguments, expected) in [
         (&["mesh", "nowhere.poly"][..], &["nowhere.poly"][..]),
         (&["mesh", "no-such-name"], &["no-such-name"]),
+        (&["figures", "--only", "figure9"], &["figure9", "figure1"]),
+        (
+            &["figures", "--only", "study-size"],
+            &["rows.jsonl", "--results", "--only"],
+        ),
         (&["mesh", "crossed.poly"], &["crossed.poly", "cross", "--repair"]),
         (&["mesh", "letters.poly"], &["letters.poly", "3"]),
         (&["mesh", "l-shape", "--spacing", "expr:x+"], &["expr:x+", "column 8"]),

@@ -1,7 +1,7 @@
 //! Which domains a family has, and what each of its cases asks for.
 
 use crate::experiment::plan::{Battery, CellBudget, Method};
-use crate::experiment::record::Cell;
+use crate::experiment::record::{Cell, plain, quoted};
 use crate::experiment::runner;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -67,21 +67,6 @@ impl Case {
         parameters.fold(self.cell.mesher.clone(), |text, (name, value)| {
             format!("{text} {name}={}", plain(value))
         })
-    }
-}
-
-/// A parameter's value as the command line takes it.
-fn plain(value: &serde_json::Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
-}
-
-/// Quoted where a shell would take it for more than a word.
-fn quoted(text: &str) -> String {
-    let is_word = |c: char| c.is_ascii_alphanumeric() || "-_.,:=/".contains(c);
-    if text.chars().all(is_word) {
-        text.to_owned()
-    } else {
-        format!("'{}'", text.replace('\'', "'\\''"))
     }
 }
 
@@ -181,23 +166,17 @@ impl Family {
         let Method { mesher, params } = &methods[number % methods.len()];
         let seed = number / methods.len();
         let mut random = Pcg64::seed_from_u64(fingerprint(&self.name) ^ number as u64);
+        let spacing = &spacings[random.random_range(0..spacings.len())];
+        let t = t[random.random_range(0..t.len())].get();
+        let c_b = c_b[random.random_range(0..c_b.len())].get();
+        let domain = match &self.domains {
+            Domains::Drawn(pattern, _) => &pattern.replace("{seed}", &seed.to_string()),
+            Domains::Files(files) => &files[seed],
+        };
         Case {
             cell: Cell {
-                domain: match &self.domains {
-                    Domains::Drawn(pattern, _) => pattern.replace("{seed}", &seed.to_string()),
-                    Domains::Files(files) => files[seed].clone(),
-                },
-                mesher: mesher.clone(),
                 params: params.clone(),
-                spacing: spacings[random.random_range(0..spacings.len())].clone(),
-                t: t[random.random_range(0..t.len())].get(),
-                c_b: c_b[random.random_range(0..c_b.len())].get(),
-                seed: 0,
-                lfs_cap: true,
-                triangles: None,
-                threads: 1,
-                poisson: None,
-                timed: false,
+                ..Cell::new(domain, mesher, spacing, t, c_b)
             },
             budget: self.limits,
             integral: seed.is_multiple_of(INTEGRAL_EVERY),
@@ -247,7 +226,7 @@ fn files(folder: &Path) -> Vec<String> {
 }
 
 /// FNV-1a of 64 bits.
-fn fingerprint(text: &str) -> u64 {
+pub(crate) fn fingerprint(text: &str) -> u64 {
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
     })

@@ -126,20 +126,7 @@ mod tests {
 
     fn case() -> Case {
         Case {
-            cell: Cell {
-                domain: "random-pslg:kind=fan,seed=1".into(),
-                mesher: "biting".into(),
-                params: serde_json::Map::new(),
-                spacing: "lfs".into(),
-                t: 0.25,
-                c_b: 0.75,
-                seed: 0,
-                lfs_cap: true,
-                triangles: None,
-                threads: 1,
-                poisson: None,
-                timed: false,
-            },
+            cell: Cell::new("random-pslg:kind=fan,seed=1", "biting", "lfs", 0.25, 0.75),
             budget: Limits {
                 triangles: 1e4,
                 seconds: 0.01,

@@ -119,8 +119,8 @@ pub struct Biting {
     pub head_on: HeadOn,
 }
 
-/// The paper without anything of ours.
-const TO_THE_LETTER: &[(&str, &str)] = &[("corners", "bite"), ("head_on", "leave")];
+/// The parameters that leave the paper without anything of ours.
+pub const TO_THE_LETTER: &[(&str, &str)] = &[("corners", "bite"), ("head_on", "leave")];
 
 pub(super) const ENTRY: Entry = Entry {
     name: "biting",

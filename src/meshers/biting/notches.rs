@@ -11,11 +11,11 @@
 //! for at most s(x) − ‖x − v‖ ≤ s(v) − (1 − t) ‖x − v‖ ≤ t s(v) there. So the rim of its shadow lies in the circle of v, and
 //! the front consists of arcs of circles as before.
 
-use crate::domain::{Domain, Wedge};
+use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::near::Disc;
 use crate::geometry::segments::{SegmentIndex, closest_on_segment};
-use crate::geometry::tolerance::{NO_ANGLE, RIGHT_ANGLE_DEG, SAME_VERTEX_ULPS};
+use crate::geometry::tolerance::SAME_VERTEX_ULPS;
 
 /// An angle under 90° that opens to the outside, counter-clockwise from one ray to the other.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +41,7 @@ impl Notches {
     pub fn new(domain: &Domain) -> Self {
         let mut notches = Vec::new();
         for (v, &vertex) in domain.vertices().iter().enumerate() {
-            for wedge in domain.wedges(v).iter().filter(|wedge| is_notch(wedge)) {
+            for wedge in domain.wedges(v).iter().filter(|wedge| wedge.is_notch()) {
                 let ways = [wedge.from, wedge.to].map(|s| domain.away(s, v));
                 notches.push(Notch {
                     vertex,
@@ -78,10 +78,6 @@ impl Notches {
         });
         parted
     }
-}
-
-fn is_notch(wedge: &Wedge) -> bool {
-    !wedge.inside && wedge.angle > NO_ANGLE && wedge.angle.to_degrees() < 90.0 - RIGHT_ANGLE_DEG
 }
 
 impl Notch {

@@ -23,9 +23,9 @@ pub enum Order {
     Flattest,
     /// The front vertex whose triangle with its two centres is nearest to equilateral, by area over squared edges.
     Equilateral,
-    /// The front vertex with the smallest biting circle.
+    /// The front vertex with the smallest biting circle, that is, the smallest spacing.
     Smallest,
-    /// The front vertex with the largest biting circle.
+    /// The front vertex with the largest biting circle, that is, the largest spacing.
     #[default]
     Largest,
     /// Any, by seed.
@@ -71,8 +71,8 @@ impl Queue {
         }
     }
 
-    /// Adds a front vertex and returns its rank, 0 where the order has none; `size` gives the radius its biting circle would
-    /// have, asked for only where it ranks.
+    /// Adds a front vertex and returns its rank, 0 where the order has none; `size` gives the
+    /// spacing there, asked for only where it ranks.
     pub fn push(&mut self, ticket: Ticket, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
         match self {
             Self::Fifo(queue) => queue.push_back(ticket),

@@ -69,7 +69,8 @@ fn peers_are_told_with_versions_and_what_they_break() {
         tables,
         [
             "### a, `lfs`, at equal edge length",
-            "### b, `lfs`, at equal edge length"
+            "### b, `lfs`, at equal edge length",
+            "### What becomes of the boundary"
         ]
     );
     // A mesh that is none of the domain is shown with its numbers and what it breaks; memory and repeats as they were told.
@@ -78,6 +79,8 @@ fn peers_are_told_with_versions_and_what_they_break() {
         broken[0].contains("| 500 |") && broken[0].ends_with("failed: its mesh breaks input-vertices |"),
         "{broken:?}"
     );
+    assert!(broken[2].starts_with("| bamg | 0 of 2 | a, b |"), "{broken:?}");
+    assert_eq!(starting(&page, "| gmsh |")[2], "| gmsh | 2 of 2 | – | – |");
     let told = starting(&page, "| gmsh |");
     assert!(told[0].contains("| -50 to +25 % | 50.0 (30.0) |"), "{told:?}");
     assert!(starting(&page, "| netgen |")[0].contains("skipped: not installed"));
