@@ -6,11 +6,12 @@ use crate::geometry::DVec2;
 use crate::meshers::biting::TO_THE_LETTER;
 use rand::RngExt;
 use rand_pcg::Pcg64;
+use std::f64::consts::TAU;
 
 /// Orders of bites, by name.
 const ORDERS: [&str; 6] = ["largest", "fifo", "lifo", "smallest", "random", "flattest"];
 /// Most vertices inside, and most cones.
-const MOST: usize = 8;
+const MOST: usize = 16;
 /// How near vertices come to the sides, and where sides' own vertices may stand.
 const MARGIN: f64 = 0.05;
 /// Coordinates are whole multiples of this, so that files hold them as they are.
@@ -44,8 +45,12 @@ impl Candidate {
             order: random.random_range(0..ORDERS.len()),
             seed: random.random_range(0..1000),
         };
-        for _ in 0..random.random_range(0..5) {
-            candidate.vertices.push(point(random));
+        if random.random_range(0..2) == 0 {
+            candidate.vertices = ring(random);
+        } else {
+            for _ in 0..random.random_range(0..5) {
+                candidate.vertices.push(point(random));
+            }
         }
         for _ in 0..random.random_range(0..4) {
             candidate.cones.push(cone(random));
@@ -139,6 +144,16 @@ impl Candidate {
 
 fn point(random: &mut Pcg64) -> DVec2 {
     DVec2::new(random.random_range(0.0..1.0), random.random_range(0.0..1.0))
+}
+
+/// A point with others around it: by Lemma 5.7 its nearest neighbour is farthest where circles just meet all around.
+fn ring(random: &mut Pcg64) -> Vec<DVec2> {
+    let (centre, radius) = (point(random), random.random_range(0.1..0.3));
+    let count = random.random_range(5..14);
+    let turn = random.random_range(0.0..1.0);
+    let around = (0..count).map(|k| TAU * (f64::from(k) + turn) / f64::from(count));
+    let around = around.map(|angle| centre + radius * DVec2::from_angle(angle));
+    std::iter::once(centre).chain(around).collect()
 }
 
 fn cone(random: &mut Pcg64) -> (DVec2, f64) {
