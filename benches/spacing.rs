@@ -5,7 +5,7 @@
 
 use biting::domain::{Domain, gallery};
 use biting::geometry::{DVec2, Rect};
-use biting::spacing::{Expression, Options, Spacing, Uniform, build, integrate, lfs_of, limit};
+use biting::spacing::{Expression, Options, Spacing, Uniform, background, build, integrate, lfs_of, limit};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -56,6 +56,10 @@ fn evaluations(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("limited-lfs", alpha), |b| {
             b.iter(|| evaluate(&points, |x| limited.at(x)));
         });
+        let background = background(lfs.clone(), &domain, alpha, 0.1).expect("lfs is positive");
+        group.bench_function(BenchmarkId::new("background", alpha), |b| {
+            b.iter(|| evaluate(&points, |x| background.at(x)));
+        });
     }
     group.finish();
 }
@@ -69,6 +73,9 @@ fn builds(criterion: &mut Criterion) {
     for alpha in [0.1, 0.25, 0.5, 0.8] {
         group.bench_function(BenchmarkId::new("limited-lfs", alpha), |b| {
             b.iter(|| limit(lfs.clone(), &domain, alpha, 0.9).map(|f| f.lipschitz()));
+        });
+        group.bench_function(BenchmarkId::new("background", alpha), |b| {
+            b.iter(|| background(lfs.clone(), &domain, alpha, 0.1).map(|f| f.lipschitz()));
         });
     }
     group.finish();

@@ -206,7 +206,7 @@ pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found]) -> String {
     );
     text += "## Where the worst was seen\n\n";
     text += &where_seen(lines);
-    text += &nearest::section(nearest);
+    text += &nearest::section(nearest, meshes);
     text += "## Figures\n\n";
     text += &figures(lines);
     text += "## What each needs and what rests on it\n\n";

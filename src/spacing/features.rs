@@ -1,5 +1,6 @@
 //! The features of a PSLG, vertices and segments, and the smallest disk that meets two that are not incident.
 
+use super::shortlist::{Items, View};
 use crate::geometry::DVec2;
 
 /// Distances kept on the stack; longer lists occur only while the lists are built, and at vertices of huge degree.
@@ -58,36 +59,6 @@ type Stop = (f64, [u32; 2]);
 #[derive(Clone, Debug)]
 pub struct Features(Vec<Feature>);
 
-/// A feature K as seen from a point x.
-#[derive(Clone, Copy, Debug)]
-pub struct View {
-    /// dist(x, K).
-    pub distance: f64,
-    /// ∇ dist: the unit vector away from K, 0 inside K.
-    pub away: DVec2,
-}
-
-impl View {
-    /// The view over `offset`, which leads from the point of K nearest to x to x.
-    fn new(offset: DVec2) -> Self {
-        let distance = offset.length();
-        let away = if distance > 0.0 { offset / distance } else { DVec2::ZERO };
-        Self { distance, away }
-    }
-
-    /// By how much the distance to `other` may gain on the distance to this one within `radius`.
-    pub fn margin(&self, other: &Self, radius: f64) -> f64 {
-        let turn = |view: &Self| {
-            if view.distance > radius {
-                0.5 * radius * radius / (view.distance - radius)
-            } else {
-                f64::INFINITY
-            }
-        };
-        (radius * self.away.distance(other.away) + turn(self) + turn(other)).min(2.0 * radius)
-    }
-}
-
 impl Features {
     /// All of them.
     pub fn new(features: Vec<Feature>) -> Self {
@@ -99,8 +70,39 @@ impl Features {
         self.0.len()
     }
 
-    /// lfs at `x` if the features in `list` are all there are, and the two that stop the disk.
-    pub fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]) {
+    /// The ends of a feature, equal for a vertex.
+    pub fn ends(&self, feature: u32) -> [DVec2; 2] {
+        let feature = &self.0[feature as usize];
+        [feature.from, feature.from + feature.along]
+    }
+
+    /// The nearest feature `first` is a segment: what hangs on one of its ends may be apart from what hangs on the
+    /// other (the two ends themselves are). Returns the smallest disk that meets two such, or `stop` if that is smaller.
+    fn between_the_ends(&self, first: &Feature, list: &[u32], distances: &[f64], stop: Stop) -> Stop {
+        let mut lowest = stop;
+        if first.ends[0] == first.ends[1] {
+            return lowest;
+        }
+        let hangs_on = |end: usize| {
+            list.iter().zip(distances).filter(move |(index, _)| {
+                let feature = &self.0[**index as usize];
+                feature.has_end(first.ends[end]) && !feature.has_end(first.ends[1 - end])
+            })
+        };
+        for (&one, &near) in hangs_on(0).filter(|(_, distance)| **distance < stop.0) {
+            for (&two, &far) in hangs_on(1) {
+                if near.max(far) < lowest.0 && !self.0[one as usize].is_incident(&self.0[two as usize]) {
+                    lowest = (near.max(far), [one, two]);
+                }
+            }
+        }
+        lowest
+    }
+}
+
+impl Items for Features {
+    /// lfs at `x`, and the two features that stop the disk.
+    fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]) {
         let mut short = [0.0; BUFFER];
         let mut long = Vec::new();
         let distances = if list.len() <= BUFFER {
@@ -127,38 +129,12 @@ impl Features {
         (squared.sqrt(), deciding)
     }
 
-    /// The ends of a feature, equal for a vertex.
-    pub fn ends(&self, feature: u32) -> [DVec2; 2] {
-        let feature = &self.0[feature as usize];
-        [feature.from, feature.from + feature.along]
+    fn view(&self, feature: u32, x: DVec2) -> View {
+        View::new(self.0[feature as usize].offset(x), 0.0, 1.0)
     }
 
-    /// The feature as seen from `x`.
-    pub fn view(&self, feature: u32, x: DVec2) -> View {
-        View::new(self.0[feature as usize].offset(x))
-    }
-
-    /// The nearest feature `first` is a segment: what hangs on one of its ends may be apart from what hangs on the
-    /// other (the two ends themselves are). Returns the smallest disk that meets two such, or `stop` if that is smaller.
-    fn between_the_ends(&self, first: &Feature, list: &[u32], distances: &[f64], stop: Stop) -> Stop {
-        let mut lowest = stop;
-        if first.ends[0] == first.ends[1] {
-            return lowest;
-        }
-        let hangs_on = |end: usize| {
-            list.iter().zip(distances).filter(move |(index, _)| {
-                let feature = &self.0[**index as usize];
-                feature.has_end(first.ends[end]) && !feature.has_end(first.ends[1 - end])
-            })
-        };
-        for (&one, &near) in hangs_on(0).filter(|(_, distance)| **distance < stop.0) {
-            for (&two, &far) in hangs_on(1) {
-                if near.max(far) < lowest.0 && !self.0[one as usize].is_incident(&self.0[two as usize]) {
-                    lowest = (near.max(far), [one, two]);
-                }
-            }
-        }
-        lowest
+    fn slope(&self) -> f64 {
+        1.0
     }
 }
 

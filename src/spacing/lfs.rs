@@ -14,7 +14,7 @@
 //! names the geodesic variant).
 
 use super::features::{Feature, Features};
-use super::shortlist::Shortlists;
+use super::shortlist::{Items, Shortlists};
 use super::{Spacing, SpacingError};
 use crate::geometry::tolerance::RESOLUTION;
 use crate::geometry::{DVec2, Rect};
@@ -82,7 +82,8 @@ impl Lfs {
             min: bounds.min - room,
             max: bounds.max + room,
         };
-        let lists = Shortlists::new(&features, root);
+        let all: Vec<u32> = (0..features.len() as u32).collect();
+        let lists = Shortlists::new(&features, &all, root);
         let mut lfs = Self {
             features,
             lists,

@@ -2,7 +2,7 @@
 
 use super::cover::Cell;
 use super::testing::{gallery, points_inside, pseudo_random_points};
-use super::{Expression, Spacing, SpacingError, lfs_of, limit};
+use super::{Expression, Spacing, SpacingError, background, lfs_of, limit};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use proptest::prelude::*;
@@ -21,9 +21,12 @@ fn envelope_by_samples(f: &dyn Spacing, samples: &[DVec2], alpha: f64, x: DVec2)
 fn assert_promises(f: &Arc<dyn Spacing>, domain: &Domain, alpha: f64, low: impl Fn(DVec2) -> Vec<DVec2>, slack: f64) {
     let limited = limit(f.clone(), domain, alpha, 0.9).unwrap();
     assert!(limited.lipschitz() <= alpha);
+    let background = background(f.clone(), domain, alpha, 1.0 - 0.9).unwrap();
     let samples = points_inside(domain, 1500);
-    for &x in &samples {
+    let ends = domain.vertices().iter().copied();
+    for x in samples.iter().copied().chain(ends) {
         let (value, highest) = (limited.at(x), f.at(x));
+        assert_eq!(background.at(x), value, "{x}");
         assert!(value <= highest, "F({x}) = {value} > f = {highest}");
     }
     for &x in samples.iter().take(100) {

@@ -1,8 +1,19 @@
-//! F(x) = min over cells C of v_C + α · dist(x, C), evaluated by branch and bound over a quadtree.
+//! F(x) = min over cells C of v_C + α · dist(x, C), evaluated by branch and bound over a quadtree or, once there are lists of the
+//! terms that matter in each part of the plane, by a walk down to one of these.
 
 use super::Spacing;
 use super::cover::DEPTH;
+use super::shortlist::{Items, Shortlists, View};
+use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
+use std::ops::Range;
+
+/// Branches more than so large, as a share of a cell's side, do not stand in its list: their parts do.
+const COARSE: f64 = 0.02;
+
+/// A list is as fine as this share of F, or as short: with less, lists take longer to make than queries gain.
+const FINEST: f64 = 0.4;
+const SHORT: usize = 48;
 
 /// Most branches waiting in a query: three a level, and the four that are being entered.
 const STACK: usize = 3 * DEPTH + 8;
@@ -35,6 +46,12 @@ impl Branch {
         let outside = ((x - self.centre).abs() - DVec2::splat(self.half)).max(DVec2::ZERO);
         self.lowest + alpha * outside.length()
     }
+
+    /// From the point of the cell nearest to `x` to `x`.
+    fn offset(&self, x: DVec2) -> DVec2 {
+        let offset = x - self.centre;
+        offset - offset.clamp(DVec2::splat(-self.half), DVec2::splat(self.half))
+    }
 }
 
 /// The gradient-limited spacing F: α-Lipschitz everywhere, since each term is and a minimum keeps that (Lemma 2.3).
@@ -42,42 +59,54 @@ impl Branch {
 pub struct Limited {
     alpha: f64,
     branches: Vec<Branch>,
+    /// Of the terms, over the root's cell.
+    lists: Option<Shortlists>,
 }
 
 impl Limited {
     /// `branches` starts with the root; parts follow one another.
     pub fn new(alpha: f64, branches: Vec<Branch>) -> Self {
-        Self { alpha, branches }
+        Self {
+            alpha,
+            branches,
+            lists: None,
+        }
     }
 
-    /// Number of terms, and of cells above them; 40 bytes each.
-    pub fn size(&self) -> (usize, usize) {
-        let terms = self.branches.iter().filter(|branch| branch.parts == 0).count();
-        (terms, self.branches.len() - terms)
+    /// The same function, with lists of what matters of it wherever `domain` is: they take some time to make, and queries are
+    /// several times as fast.
+    pub fn listed(mut self, domain: &Domain) -> Self {
+        let root = self.branches[0];
+        let cell = Rect {
+            min: root.centre - root.half,
+            max: root.centre + root.half,
+        };
+        let limited = &self;
+        self.lists = Some(Shortlists::new(&Terms { limited, domain }, &[0], cell));
+        self
     }
-}
 
-impl Spacing for Limited {
-    fn at(&self, x: DVec2) -> f64 {
-        let mut best = f64::INFINITY;
+    /// The lowest of `best` and the terms below a branch, at `x`, each with its term.
+    #[inline]
+    fn lowest(&self, from: u32, x: DVec2, mut best: (f64, u32)) -> (f64, u32) {
         let mut stack = [(0.0, 0u32); STACK];
-        stack[0].0 = self.branches[0].at(x, self.alpha);
+        stack[0] = (self.branches[from as usize].at(x, self.alpha), from);
         let mut height = 1;
         while height > 0 {
             height -= 1;
             let (bound, index) = stack[height];
-            if bound >= best {
+            if bound >= best.0 {
                 continue;
             }
             let branch = &self.branches[index as usize];
             if branch.parts == 0 {
-                best = bound;
+                best = (bound, index);
                 continue;
             }
             let mut entered = height;
             for part in branch.first..branch.first + branch.parts {
                 let bound = self.branches[part as usize].at(x, self.alpha);
-                if bound < best {
+                if bound < best.0 {
                     // Kept in descending order, so that the most promising part is entered first.
                     let mut place = entered;
                     while place > height && stack[place - 1].0 < bound {
@@ -93,6 +122,84 @@ impl Spacing for Limited {
         best
     }
 
+    /// The same below each branch of a list.
+    #[inline]
+    fn lowest_of(&self, list: &[u32], x: DVec2) -> (f64, u32) {
+        let lower = |best: (f64, u32), &from: &u32| {
+            let branch = &self.branches[from as usize];
+            let bound = branch.at(x, self.alpha);
+            match bound < best.0 {
+                false => best,
+                true if branch.parts == 0 => (bound, from),
+                true => self.lowest(from, x, best),
+            }
+        };
+        list.iter().fold((f64::INFINITY, 0), lower)
+    }
+
+    /// Number of terms, and of cells above them; 40 bytes each.
+    pub fn size(&self) -> (usize, usize) {
+        let terms = self.branches.iter().filter(|branch| branch.parts == 0).count();
+        (terms, self.branches.len() - terms)
+    }
+}
+
+/// The terms of F, as they matter in a domain.
+struct Terms<'a> {
+    limited: &'a Limited,
+    domain: &'a Domain,
+}
+
+impl Items for Terms<'_> {
+    fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]) {
+        let (value, term) = self.limited.lowest_of(list, x);
+        (value, [term; 2])
+    }
+
+    fn view(&self, term: u32, x: DVec2) -> View {
+        let term = &self.limited.branches[term as usize];
+        View::new(term.offset(x), term.lowest, self.limited.alpha)
+    }
+
+    fn slope(&self) -> f64 {
+        self.limited.alpha
+    }
+
+    fn parts(&self, item: u32, cell: &Rect) -> Option<Range<u32>> {
+        let branch = &self.limited.branches[item as usize];
+        let is_large = branch.parts > 0 && branch.half > COARSE * cell.size().max_element();
+        is_large.then(|| branch.first..branch.first + branch.parts)
+    }
+
+    fn is_single(&self, item: u32) -> bool {
+        self.limited.branches[item as usize].parts == 0
+    }
+
+    fn is_asked_in(&self, cell: &Rect) -> bool {
+        let centre = cell.centre();
+        let is_near = |(_, distance): (usize, f64)| distance <= 0.5 * cell.diagonal();
+        self.domain.index().nearest(centre).is_none_or(is_near) || self.domain.contains(centre)
+    }
+
+    fn finest(&self) -> f64 {
+        FINEST
+    }
+
+    fn short(&self) -> usize {
+        SHORT
+    }
+}
+
+impl Spacing for Limited {
+    fn at(&self, x: DVec2) -> f64 {
+        // There is no list outside the domain.
+        let list = self.lists.as_ref().and_then(|lists| lists.at(x));
+        match list.filter(|list| !list.is_empty()) {
+            Some(list) => self.lowest_of(list, x).0,
+            None => self.lowest(0, x, (f64::INFINITY, 0)).0,
+        }
+    }
+
     fn lipschitz(&self) -> f64 {
         self.alpha
     }
@@ -106,12 +213,28 @@ impl Spacing for Limited {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::domain::Pslg;
     use proptest::prelude::*;
 
     const ROOT: Rect = Rect {
         min: DVec2::new(1.0, 2.0),
         max: DVec2::new(3.0, 4.0),
     };
+
+    /// ROOT as a domain.
+    fn square() -> Domain {
+        let mut pslg = Pslg::new("square");
+        pslg.add_ring(
+            [
+                ROOT.min,
+                DVec2::new(ROOT.max.x, ROOT.min.y),
+                ROOT.max,
+                DVec2::new(ROOT.min.x, ROOT.max.y),
+            ],
+            1,
+        );
+        Domain::new(pslg).expect("a square")
+    }
 
     /// Splits the cells that `choices` name, one after another; `values` are those of the cells without parts. Returns the
     /// terms too.
@@ -155,6 +278,12 @@ mod tests {
             prop_assert!((limited.at(x) - at(x)).abs() < 1e-15, "{} {}", limited.at(x), at(x));
             prop_assert_eq!(limited.size(), (terms.len(), choices.len()));
             prop_assert_eq!(limited.lipschitz(), 0.6);
+            // With lists, to the last bit.
+            let listed = limited.clone().listed(&square());
+            prop_assert_eq!(listed.at(x), limited.at(x));
+            for (cell, _) in &terms {
+                prop_assert_eq!(listed.at(cell.centre()), limited.at(cell.centre()));
+            }
             // No lower than α allows from the centre, nor than the lowest term.
             let cell = Rect { min: x, max: x + DVec2::new(0.3, 0.4) };
             let lowest = terms.iter().map(|term| term.1).fold(9.0, f64::min);

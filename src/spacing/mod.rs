@@ -38,7 +38,7 @@ mod uniform;
 pub use background::Background;
 pub use combine::{Min, Scaled};
 pub use expression::Expression;
-pub use gradient_limit::limit;
+pub use gradient_limit::{background, limit};
 pub use grammar::GrammarError;
 pub use integral::{Integral, estimate_triangles, integrate};
 pub use lfs::{Lfs, Narrowest};

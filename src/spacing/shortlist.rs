@@ -1,34 +1,35 @@
-//! Short lists: a tree of cells whose leaves name the few features that decide lfs there.
+//! Short lists: a tree of cells whose leaves name the few items that decide a function there.
 //!
 //! # Idea
-//! lfs(x) is decided by two of the features nearest to x. If the two that decide at the centre of a small disc are nearer
-//! than feature K all over the disc, K cannot decide anywhere in it. So a child's list is a part of its parent's, and a
-//! query walks down to its leaf and looks at a few features, exactly as if it had looked at all.
+//! lfs(x) is decided by two of the features nearest to x, a limited spacing by one of its terms. If the items that decide at the
+//! centre of a small disc are lower than item K all over the disc, K cannot decide anywhere in it. So a child's list is a part
+//! of its parent's, and a query walks down to its leaf and looks at a few items, exactly as if it had looked at all.
 //!
 //! # Guarantee
-//! Features are convex. The gradient of the distance d to a convex set is a unit vector that turns by at most r / (d − r)
-//! within r of a point at distance d > r, because the Hessian's eigenvalues lie in [0, 1 / d]. Hence, within r of c,
+//! An item's value is v_K + α d_K, with d_K the distance to a convex set. The gradient of d is a unit vector that turns by at
+//! most r / (d − r) within r of a point at distance d > r, because the Hessian's eigenvalues lie in [0, 1 / d]. Hence, within r
+//! of c,
 //!
 //! > d_K − d_W ≥ d_K(c) − d_W(c) − min(2 r, r ‖∇d_K − ∇d_W‖ + ½ r² / (d_K − r) + ½ r² / (d_W − r)),
 //!
-//! and K is left out where that is positive for both deciding features W.
+//! and K is left out where so its value is above that of both deciding items W.
 //!
 //! # Cost
-//! About (features) × (depth) × (overlap) to build; a query is a walk of `depth` steps and one short list.
+//! About (items) × (depth) × (overlap) to build; a query is a walk of `depth` steps and one short list.
 
-use super::features::{Features, View};
 use crate::geometry::tolerance::SHORTLIST;
 use crate::geometry::{DVec2, Rect};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Deepest tree: cells 2⁻⁴⁰ of the root, finer than coordinates can tell apart in practice.
 const DEPTH: usize = 40;
 
-/// A cell is not split once its radius is below this share of the function at its centre. Meshes and integrals ask a few
-/// times in such a cell where spacing follows lfs: a shorter list would take longer to make than it saves.
+/// [`Items::finest`] of features. Meshes and integrals ask a few times in such a cell where spacing follows lfs: a shorter list
+/// would take longer to make than it saves.
 const FINEST: f64 = 1.0 / 32.0;
 
-/// A list this short is not worth splitting.
+/// [`Items::short`] of features.
 const SHORT: usize = 16;
 
 /// A cell smaller than the function there is not split once so many levels in turn have each left out under 1 /
@@ -41,6 +42,79 @@ const PROGRESS: usize = 8;
 
 /// The tree is cut into so many subtrees at least, which are built side by side.
 const SUBTREES: usize = 256;
+
+/// What decides a function: convex sets, each with a value that rises with the distance from it.
+pub trait Items: Sync {
+    /// The function at `x` if the items in `list` are all there are, and the items that decide it: one twice, or two.
+    fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]);
+
+    /// An item as seen from `x`.
+    fn view(&self, item: u32, x: DVec2) -> View;
+
+    /// α: by how much values rise with distance.
+    fn slope(&self) -> f64;
+
+    /// What stands for an item in a cell that is small against it: items of which each has a value no lower.
+    fn parts(&self, _item: u32, _cell: &Rect) -> Option<Range<u32>> {
+        None
+    }
+
+    /// Whether an item stands for itself alone.
+    fn is_single(&self, _item: u32) -> bool {
+        true
+    }
+
+    /// Whether the function is ever asked for in a cell: the list of another is empty.
+    fn is_asked_in(&self, _cell: &Rect) -> bool {
+        true
+    }
+
+    /// A cell is not split once its radius is below this share of the function at its centre.
+    fn finest(&self) -> f64 {
+        FINEST
+    }
+
+    /// A list this short is not worth splitting.
+    fn short(&self) -> usize {
+        SHORT
+    }
+}
+
+/// An item K as seen from a point x.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// Its value there.
+    pub value: f64,
+    /// dist(x, K).
+    pub distance: f64,
+    /// ∇ dist: the unit vector away from K, 0 inside K.
+    pub away: DVec2,
+}
+
+impl View {
+    /// The view over `offset`, which leads from the point of K nearest to x to x, of an item that has `lowest` on K.
+    pub fn new(offset: DVec2, lowest: f64, slope: f64) -> Self {
+        let distance = offset.length();
+        let away = if distance > 0.0 { offset / distance } else { DVec2::ZERO };
+        Self {
+            value: lowest + slope * distance,
+            distance,
+            away,
+        }
+    }
+
+    /// By how much the distance to `other` may gain on the distance to this one within `radius`.
+    pub fn margin(&self, other: &Self, radius: f64) -> f64 {
+        let turn = |view: &Self| {
+            if view.distance > radius {
+                0.5 * radius * radius / (view.distance - radius)
+            } else {
+                f64::INFINITY
+            }
+        };
+        (radius * self.away.distance(other.away) + turn(self) + turn(other)).min(2.0 * radius)
+    }
+}
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -77,21 +151,44 @@ struct Pending {
 
 impl Pending {
     /// `parent` lists all items that matter in a cell around this one; `idle` is that cell's.
-    fn new(features: &Features, cell: Rect, depth: usize, (parent, idle): (&[u32], usize)) -> Self {
+    fn new(items: &impl Items, cell: Rect, depth: usize, (parent, idle): (&[u32], usize)) -> Self {
+        if !items.is_asked_in(&cell) {
+            return Self {
+                cell,
+                depth,
+                list: Vec::new(),
+                idle,
+                is_leaf: true,
+            };
+        }
         let (centre, radius) = (cell.centre(), 0.5 * cell.diagonal());
-        let (value, deciding) = features.decide(parent, centre);
-        let deciding = deciding.map(|item| features.view(item, centre));
+        let (value, deciding) = items.decide(parent, centre);
+        // One item may decide twice.
+        let count = if deciding[0] == deciding[1] { 1 } else { 2 };
+        let deciding = &deciding.map(|item| items.view(item, centre))[..count];
         let matters = |item: &u32| {
-            let view = features.view(*item, centre);
-            let may_win =
-                |over: &View| view.distance - over.distance <= view.margin(over, radius) + SHORTLIST * view.distance;
+            let view = items.view(*item, centre);
+            let may_win = |over: &View| {
+                let lead = view.value - over.value - SHORTLIST * view.value;
+                lead <= items.slope() * 2.0 * radius && lead <= items.slope() * view.margin(over, radius)
+            };
             deciding.iter().any(may_win)
         };
-        let list: Vec<u32> = parent.iter().copied().filter(matters).collect();
-        let is_fine = radius <= FINEST * value;
-        let is_idle = radius <= value && PROGRESS * (parent.len() - list.len()) < parent.len();
+        let mut list = Vec::new();
+        let mut pending: Vec<u32> = parent.iter().rev().copied().collect();
+        while let Some(item) = pending.pop() {
+            if matters(&item) {
+                match items.parts(item, &cell) {
+                    Some(parts) => pending.extend(parts.rev()),
+                    None => list.push(item),
+                }
+            }
+        }
+        let is_fine = radius <= items.finest() * value;
+        let is_idle = radius <= value && PROGRESS * parent.len().saturating_sub(list.len()) < parent.len();
         let idle = if is_idle { idle + 1 } else { 0 };
-        let is_leaf = list.len() <= SHORT || depth >= DEPTH || is_fine || idle >= IDLE_LEVELS;
+        let is_short = list.len() <= items.short() && list.iter().all(|item| items.is_single(*item));
+        let is_leaf = is_short || depth >= DEPTH || is_fine || idle >= IDLE_LEVELS;
         Self {
             cell,
             depth,
@@ -101,9 +198,9 @@ impl Pending {
         }
     }
 
-    fn parts(&self, features: &Features) -> [Self; 4] {
+    fn parts(&self, items: &impl Items) -> [Self; 4] {
         let given = (&self.list[..], self.idle);
-        parts(self.cell).map(|part| Self::new(features, part, self.depth + 1, given))
+        parts(self.cell).map(|part| Self::new(items, part, self.depth + 1, given))
     }
 }
 
@@ -160,12 +257,12 @@ impl Tree {
     }
 
     /// The whole tree below a cell.
-    fn below(features: &Features, root: Pending) -> Self {
+    fn below(items: &impl Items, root: Pending) -> Self {
         let mut tree = Self::new();
         let mut pending = vec![(0, root)];
         while let Some((node, cell)) = pending.pop() {
             if let Some(first) = tree.enter(node, &cell) {
-                pending.extend((first..).zip(cell.parts(features)));
+                pending.extend((first..).zip(cell.parts(items)));
             }
         }
         tree
@@ -186,23 +283,22 @@ impl Tree {
 }
 
 impl Shortlists {
-    /// Builds the lists over `root`, on rayon's pool; the tree does not depend on the number of threads.
-    pub fn new(features: &Features, root: Rect) -> Self {
-        let all: Vec<u32> = (0..features.len() as u32).collect();
+    /// Builds the lists of `all` items over `root`, on rayon's pool; the tree does not depend on the number of threads.
+    pub fn new(items: &impl Items, all: &[u32], root: Rect) -> Self {
         let mut tree = Tree::new();
-        let mut level = vec![(0, Pending::new(features, root, 0, (&all, 0)))];
+        let mut level = vec![(0, Pending::new(items, root, 0, (all, 0)))];
         while !level.is_empty() && level.len() < SUBTREES {
             let open = level
                 .into_iter()
                 .filter_map(|(node, cell)| Some((tree.enter(node, &cell)?, cell)));
             let parts = open.collect::<Vec<_>>().into_par_iter();
             level = parts
-                .flat_map_iter(|(first, cell)| (first..).zip(cell.parts(features)))
+                .flat_map_iter(|(first, cell)| (first..).zip(cell.parts(items)))
                 .collect();
         }
         let subtrees: Vec<(u32, Tree)> = level
             .into_par_iter()
-            .map(|(node, cell)| (node, Tree::below(features, cell)))
+            .map(|(node, cell)| (node, Tree::below(items, cell)))
             .collect();
         for (node, subtree) in subtrees {
             tree.graft(node, subtree);
@@ -244,7 +340,7 @@ impl Shortlists {
 
 #[cfg(test)]
 mod tests {
-    use super::super::features::Feature;
+    use super::super::features::{Feature, Features};
     use super::super::testing::pseudo_random_points;
     use super::*;
 
@@ -300,7 +396,7 @@ mod tests {
     fn the_list_at_a_point_is_that_of_the_leaf_it_is_in_and_decides_as_all_features_do() {
         let points = pseudo_random_points(600);
         let (features, all) = (vertices(points.iter().copied()), (0..600).collect::<Vec<u32>>());
-        let lists = Shortlists::new(&features, rect((0.0, 0.0), (1.0, 3.0)));
+        let lists = Shortlists::new(&features, &all, rect((0.0, 0.0), (1.0, 3.0)));
         let leaves = leaves(&lists);
         let entries: usize = leaves.iter().map(|(_, _, list)| list.len()).sum();
         assert_eq!(lists.size(), (1 + (leaves.len() - 1) / 3 * 4, entries));
@@ -324,7 +420,8 @@ mod tests {
         let place =
             |k: usize| DVec2::splat(1.0 / 3.0) + 4.0 * f64::EPSILON * DVec2::new((k % 8) as f64, (k / 8) as f64);
         let features = vertices((0..2 * SHORT).map(place));
-        let lists = Shortlists::new(&features, rect((-1.0, -1.0), (1.0, 1.0)));
+        let all: Vec<u32> = (0..features.len() as u32).collect();
+        let lists = Shortlists::new(&features, &all, rect((-1.0, -1.0), (1.0, 1.0)));
         assert_eq!(leaves(&lists).iter().map(|(_, depth, _)| *depth).max(), Some(DEPTH));
     }
 }

@@ -13,6 +13,7 @@ mod candidate;
 
 use super::demonstration::report;
 use super::judge::optima;
+use super::measured::Meshes;
 use super::record::{Measured, Statement};
 use super::statements;
 use crate::experiment::record::{Cell, quoted};
@@ -190,8 +191,8 @@ pub fn again(root: &Path) -> Result<Vec<Found>, String> {
         .collect()
 }
 
-/// The section of the page.
-pub fn section(found: &[Found]) -> String {
+/// The section of the page, beside the committed meshes of the same t.
+pub fn section(found: &[Found], meshes: &Meshes) -> String {
     if found.is_empty() {
         return String::new();
     }
@@ -208,16 +209,28 @@ pub fn section(found: &[Found]) -> String {
         let t = found.cell.t;
         let bound = (statement.printed.at)(t);
         let optimum = optima(&statement, &[t]).first().map(|judged| judged.optimum.found)?;
+        let committed = meshes.by_t(&statement).into_iter().find(|(at, _)| *at == t);
         Some(vec![
             statement.place.into(),
             number(t),
             number(bound),
             number(optimum / bound),
             number(found.worst / bound),
+            committed.map_or("–".into(), |(_, worst)| number(worst / bound)),
         ])
     };
     let lines: Vec<Vec<String>> = found.iter().filter_map(cells).collect();
-    text += &table(&["statement", "t", "bound", "optimum / bound", "found / bound"], &lines);
+    text += &table(
+        &[
+            "statement",
+            "t",
+            "bound",
+            "optimum / bound",
+            "found / bound",
+            "committed meshes / bound",
+        ],
+        &lines,
+    );
     for found in found {
         commands += &format!(
             "cargo run --release -- mesh {}{}\n",
