@@ -29,8 +29,8 @@
 //! Kinks of abs, min and max in u count by their sides alone. Where u itself has no finite value there is no spacing.
 //!
 //! # Guarantee
-//! As in `proved.rs`: cells enclose f, and the Lipschitz constant is proved where |λ|max has one, infinite otherwise;
-//! gradient limiting makes it finite.
+//! As in `proved.rs`: cells enclose f, and the Lipschitz constant is proved where one of reasonable size was found,
+//! infinite otherwise; gradient limiting makes it finite.
 //!
 //! # Reference
 //! S. Waldron, "The error in linear interpolation at the vertices of a simplex", SIAM J. Numer. Anal. 35, 1998, for the sharp
@@ -54,7 +54,7 @@ pub const SMALLEST: f64 = 1e-4;
 pub struct Tolerance {
     /// The error of interpolation that is allowed, in the unit of u; positive.
     pub eps: f64,
-    /// f is nowhere smaller, in the domain's unit of length; by default [`SMALLEST`] of the longer side of its box.
+    /// f is nowhere smaller, in the domain's unit of length; by default 1e-4 of the longer side of its box.
     pub min: Option<f64>,
     /// f is nowhere larger; by default the longer side of the domain's box, or `min` where that is larger.
     pub max: Option<f64>,
@@ -117,6 +117,9 @@ impl Numerical {
 impl Formula for Numerical {
     /// A cell costs ten times as much as that of an expression.
     const BUDGET: usize = 1_000;
+
+    /// Ten times what lfs may have: where H changes sign or is singular f is steep in few places, for which cells know better.
+    const STEEPEST: f64 = 10.0;
 
     fn run<N: Scalar>(&self, x: N, y: N) -> N {
         let u = self.solution.run(Jet::x(x), Jet::y(y));

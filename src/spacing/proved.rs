@@ -26,6 +26,10 @@ pub trait Formula: Send + Sync {
     /// Cells that each bound on the whole box may cost.
     const BUDGET: usize;
 
+    /// A Lipschitz constant beyond this counts as none: who walks in steps of f over the constant, as integration does, would
+    /// take the worse a bound is the longer, while none at all is known how to live with.
+    const STEEPEST: f64 = f64::INFINITY;
+
     /// The value at (x, y).
     fn run<N: Scalar>(&self, x: N, y: N) -> N;
 }
@@ -53,7 +57,11 @@ impl<F: Formula> Proved<F> {
         let lipschitz = supremum(F::BUDGET, bounds, slope, |x| slope(point(x)));
         let high = supremum(F::BUDGET, bounds, |cell| proved.enclosure(cell).high, |x| proved.at(x));
         let low = -supremum(F::BUDGET, bounds, |cell| -proved.enclosure(cell).low, |x| -proved.at(x));
-        proved.lipschitz = lipschitz;
+        proved.lipschitz = if lipschitz > F::STEEPEST {
+            f64::INFINITY
+        } else {
+            lipschitz
+        };
         proved.range = Interval::new(low, high);
         proved
     }

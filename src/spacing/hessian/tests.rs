@@ -1,7 +1,9 @@
 //! nsf by hand, enclosed, and held against the error that it promises.
 
 use super::super::Spacing;
+use super::super::testing::bitten;
 use super::*;
+use crate::domain::{Domain, gallery};
 use crate::geometry::DVec2;
 use proptest::prelude::*;
 use std::sync::OnceLock;
@@ -90,6 +92,29 @@ fn the_constant_is_sharp_on_an_equilateral_triangle() {
     }
 }
 
+/// What the module's docs say of a mesh: R ≤ c_b f / (1 − t), so the error is at most 3 (c_b / (1 − t))² eps, for a constant H
+/// and triangles whose circumcentre lies in the domain; and that it is of the order of eps.
+#[test]
+fn a_bitten_mesh_keeps_the_error() {
+    let square = Domain::new(gallery::pslg("unit-square").unwrap().unwrap()).unwrap();
+    let eps = 1e-3;
+    let mesh = bitten(&square, &format!("hessian:x^2+y^2;eps={eps}"), [0.25, 0.75]);
+    let mut worst = 0.0f64;
+    for t in 0..mesh.triangles.len() {
+        let [a, b, c] = mesh.corners(t);
+        let twice = (b - a).perp_dot(c - a);
+        let radius = a.distance(b) * b.distance(c) * c.distance(a) / (2.0 * twice);
+        // Both eigenvalues are 2: the error at the circumcentre is R², where that lies in the triangle.
+        let is_acute = [[a, b, c], [b, c, a], [c, a, b]]
+            .iter()
+            .all(|[p, q, r]| (*q - *p).dot(*r - *p) > 0.0);
+        if is_acute {
+            worst = worst.max(radius * radius);
+        }
+    }
+    assert!((0.3 * eps..=3.0 * eps).contains(&worst), "{worst}");
+}
+
 const SOLUTIONS: [&str; 7] = [
     "tanh((x-0.5)/0.1)+y^2",
     "sin(5*x)*cos(3*y)",
@@ -142,5 +167,12 @@ fn enclosures_close_in_on_the_spacing() {
         width(1e-2),
         width(1e-4)
     );
-    assert!(f.lipschitz().is_finite());
+    // |λ|max = 4e^{2x} here: f = √(1.5e-3) e^{-x}, as steep as √(1.5e-3).
+    let gentle = nsf("exp(2*x)+y^2", 1e-3).lipschitz();
+    assert!(
+        (1.5e-3f64.sqrt()..1.05 * 1.5e-3f64.sqrt()).contains(&gentle),
+        "{gentle}"
+    );
+    // A formula that is steep where H changes sign claims nothing.
+    assert_eq!(nsf("tanh((x+y-1)/0.1)", 0.02).lipschitz(), f64::INFINITY);
 }
