@@ -20,9 +20,16 @@ use crate::geometry::interval::Interval;
 pub trait Scalar: Number {
     /// All values it may stand for.
     fn range(self) -> Interval;
+    /// Whether it is 0 and nothing else, with all its derivatives.
+    fn is_zero(self) -> bool;
     /// The product; 0 where a factor is, whatever the other: 0 · ∞ arises where a derivative that does not exist meets a
-    /// constant.
-    fn times(self, other: Self) -> Self;
+    /// constant. Half of all products are with a 0, so that not computing them pays as well.
+    fn times(self, other: Self) -> Self {
+        match self.is_zero() || other.is_zero() {
+            true => Self::constant(0.0),
+            false => self.binary(Binary::Multiply, other),
+        }
+    }
     /// One of two values, with a jump between them.
     fn jump(self, other: Self) -> Self;
     /// A value of which nothing is known.
@@ -35,8 +42,8 @@ impl Scalar for f64 {
     }
 
     #[inline]
-    fn times(self, other: Self) -> Self {
-        if self == 0.0 || other == 0.0 { 0.0 } else { self * other }
+    fn is_zero(self) -> bool {
+        self == 0.0
     }
 
     fn jump(self, _other: Self) -> Self {
@@ -53,8 +60,8 @@ impl Scalar for Interval {
         self
     }
 
-    fn times(self, other: Self) -> Self {
-        self * other
+    fn is_zero(self) -> bool {
+        self == Self::point(0.0)
     }
 
     fn jump(self, other: Self) -> Self {
@@ -71,8 +78,8 @@ impl Scalar for Gradient {
         self.value
     }
 
-    fn times(self, other: Self) -> Self {
-        self.binary(Binary::Multiply, other)
+    fn is_zero(self) -> bool {
+        self == Self::constant(0.0)
     }
 
     fn jump(self, other: Self) -> Self {
@@ -95,8 +102,12 @@ pub struct Jet<N> {
     pub bend: [N; 3],
 }
 
-fn sum<N: Number>(a: N, b: N) -> N {
-    a.binary(Binary::Add, b)
+fn sum<N: Scalar>(a: N, b: N) -> N {
+    match (a.is_zero(), b.is_zero()) {
+        (true, _) => b,
+        (_, true) => a,
+        _ => a.binary(Binary::Add, b),
+    }
 }
 
 /// |λ|max: the larger eigenvalue by magnitude of a symmetric matrix with entries xx, xy and yy. With the mean m of its
