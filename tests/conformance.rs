@@ -4,7 +4,7 @@
 use biting::domain::{Domain, Fill, Pslg, gallery};
 use biting::geometry::DVec2;
 use biting::mesh::{Mesh, files};
-use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace, parameter_value};
+use biting::meshers::{Budget, Entry, MESHERS, MeshError, Mesher, Parameters, Request, Trace, parameter_value};
 use biting::quality::{Bounds, judge};
 use biting::spacing::{self, Options, Prepared, Spacing};
 use rand::SeedableRng;
@@ -49,33 +49,72 @@ fn prepare(pslg: &Pslg, spec: &str) -> (Domain, Prepared) {
     (domain, prepared)
 }
 
-fn run(entry: &Entry, domain: &Domain, prepared: &Prepared, threads: usize) -> Result<Mesh, MeshError> {
-    let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+/// A mesher with parameters.
+struct Method {
+    name: String,
+    entry: &'static Entry,
+    parameters: Parameters,
+}
+
+impl Method {
+    fn make(&self) -> Box<dyn Mesher> {
+        (self.entry.make)(&self.parameters).expect("parameters are valid")
+    }
+}
+
+/// Every mesher at its defaults and, where it has rules of who bites whom, by each of them.
+fn methods() -> Vec<Method> {
+    let mut methods = Vec::new();
+    for entry in MESHERS {
+        let rules = entry.parameters.iter().filter(|parameter| parameter.name == "rule");
+        let others = rules.flat_map(|rule| rule.values.split(", ").filter(|value| *value != rule.default));
+        let of = |value: &str| Parameters::from_iter([("rule".to_owned(), parameter_value(value))]);
+        for parameters in std::iter::once(Parameters::new()).chain(others.map(of)) {
+            methods.push(Method {
+                name: format!("{} {parameters:?}", entry.name),
+                entry,
+                parameters,
+            });
+        }
+    }
+    methods
+}
+
+fn run(method: &Method, domain: &Domain, prepared: &Prepared, threads: usize) -> Result<Mesh, MeshError> {
+    let mesher = method.make();
     mesher.mesh(domain, &*prepared.function, &request(threads), &mut Trace::default())
 }
 
 /// Meshes and holds every guaranteed check of the certificate; a method may decline, with a reason.
-fn certified(entry: &Entry, pslg: &Pslg, spec: &str, what: &str) -> Option<Mesh> {
+fn certified(method: &Method, pslg: &Pslg, spec: &str, what: &str) -> Option<Mesh> {
     let (domain, prepared) = prepare(pslg, spec);
-    let mesh = match run(entry, &domain, &prepared, 1) {
+    let mesh = match run(method, &domain, &prepared, 1) {
         Ok(mesh) => mesh,
         Err(MeshError::Declined(reason)) => {
             assert!(!reason.is_empty());
             return None;
         }
-        Err(error) => panic!("{} on {} {what}: {error}", entry.name, pslg.name),
+        Err(error) => panic!("{} on {} {what}: {error}", method.name, pslg.name),
     };
     let bounds = Bounds {
         spacing: &*prepared.function,
         c_b: C_B,
+        rule: method.entry.rule(&method.parameters),
         lfs_cap: prepared.lfs_cap,
         integral: None,
         integral_error: 0.0,
-        guaranteed: &entry.guaranteed(&Parameters::new(), &domain, &*prepared.function, C_B),
+        guaranteed: &method
+            .entry
+            .guaranteed(&method.parameters, &domain, &*prepared.function, C_B),
     };
     let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
     let broken: Vec<_> = certificate.broken().collect();
-    assert!(broken.is_empty(), "{} on {} {what}: {broken:#?}", entry.name, pslg.name);
+    assert!(
+        broken.is_empty(),
+        "{} on {} {what}: {broken:#?}",
+        method.name,
+        pslg.name
+    );
     assert!(certificate.holds);
     assert_eq!(
         mesh.points[..domain.vertices().len()],
@@ -122,10 +161,10 @@ fn shuffled(pslg: &Pslg, seed: u64) -> Pslg {
 
 #[test]
 fn every_mesher_on_every_small_domain() {
-    for entry in MESHERS {
+    for method in &methods() {
         for pslg in small_gallery() {
             for spec in ["lfs", "expr: 0.05 + 0.2*(x*x + y*y)"] {
-                certified(entry, &pslg, spec, spec);
+                certified(method, &pslg, spec, spec);
             }
         }
     }
@@ -154,7 +193,7 @@ fn every_kind_of_spacing_by_every_mesher() {
         .into_iter()
         .filter(|pslg| ["unit-square", "l-shape"].contains(&pslg.name.as_str()))
     {
-        let first = certified(&MESHERS[0], &pslg, "uniform:0.15", "the mesh to begin with").expect("a mesh");
+        let first = certified(&methods()[0], &pslg, "uniform:0.15", "the mesh to begin with").expect("a mesh");
         let values: Vec<f64> = first.points.iter().map(|x| ((x.x + x.y - 1.0) / 0.2).tanh()).collect();
         let file = |name: &str| folder.path().join(format!("{}-{name}", pslg.name));
         let (field, mesh) = (file("u.node"), file("mesh.vtu"));
@@ -165,8 +204,8 @@ fn every_kind_of_spacing_by_every_mesher() {
         for (spec, kind) in specs.iter().zip(spacing::KINDS) {
             let start = kind.split([':', '(']).next().unwrap_or_default();
             assert!(spec.starts_with(start), "{spec} is no {kind}");
-            for entry in MESHERS {
-                certified(entry, &pslg, spec, spec);
+            for method in &methods() {
+                certified(method, &pslg, spec, spec);
             }
         }
     }
@@ -177,24 +216,24 @@ const MOST_DECLINED: usize = 1;
 
 #[test]
 fn random_domains_are_hardly_ever_declined() {
-    for entry in MESHERS {
+    for method in &methods() {
         let is_declined = |seed: &usize| {
             let name = format!("random-simple:n=12,seed={seed}");
             let pslg = gallery::pslg(&name).expect("a gallery name").expect("a gallery domain");
-            certified(entry, &pslg, "lfs", &name).is_none()
+            certified(method, &pslg, "lfs", &name).is_none()
         };
         let declined: Vec<usize> = (1..=100).filter(is_declined).collect();
-        assert!(declined.len() <= MOST_DECLINED, "{} declines {declined:?}", entry.name);
+        assert!(declined.len() <= MOST_DECLINED, "{} declines {declined:?}", method.name);
     }
 }
 
 #[test]
 fn scaled_from_a_millionth_to_a_million() {
-    for entry in MESHERS {
+    for method in &methods() {
         for pslg in small_gallery() {
             for scale in [1e-6, 1e-3, 1e3, 1e6] {
                 certified(
-                    entry,
+                    method,
                     &mapped(&pslg, |p| p * scale),
                     "lfs",
                     &format!("scaled by {scale:e}"),
@@ -208,21 +247,21 @@ fn scaled_from_a_millionth_to_a_million() {
 /// the certificate gives way by.
 #[test]
 fn far_from_the_origin() {
-    for entry in MESHERS {
+    for method in &methods() {
         for seed in [17, 27, 95] {
             let name = format!("random-pslg:kind=moved,seed={seed}");
             let pslg = gallery::pslg(&name).expect("a gallery name").expect("a gallery domain");
-            certified(entry, &pslg, "uniform:0.12", "moved");
+            certified(method, &pslg, "uniform:0.12", "moved");
         }
     }
 }
 
 #[test]
 fn a_power_of_two_changes_nothing_but_the_scale() {
-    for entry in MESHERS {
+    for method in &methods() {
         for pslg in small_gallery() {
-            let mesh = certified(entry, &pslg, "lfs", "as it is");
-            let larger = certified(entry, &mapped(&pslg, |p| p * 1024.0), "lfs", "scaled by 1024");
+            let mesh = certified(method, &pslg, "lfs", "as it is");
+            let larger = certified(method, &mapped(&pslg, |p| p * 1024.0), "lfs", "scaled by 1024");
             let (Some(mesh), Some(larger)) = (mesh, larger) else {
                 continue;
             };
@@ -230,7 +269,7 @@ fn a_power_of_two_changes_nothing_but_the_scale() {
                 mesh.triangles.len(),
                 larger.triangles.len(),
                 "{} on {}",
-                entry.name,
+                method.name,
                 pslg.name
             );
         }
@@ -239,31 +278,31 @@ fn a_power_of_two_changes_nothing_but_the_scale() {
 
 #[test]
 fn rotated_mirrored_and_shuffled() {
-    for entry in MESHERS {
+    for method in &methods() {
         for pslg in small_gallery() {
             for degrees in [17.0f64, 90.0, 123.0] {
                 let turn = DVec2::from_angle(degrees.to_radians());
                 certified(
-                    entry,
+                    method,
                     &mapped(&pslg, |p| turn.rotate(p)),
                     "lfs",
                     &format!("turned by {degrees} degrees"),
                 );
             }
-            certified(entry, &mapped(&pslg, |p| DVec2::new(-p.x, p.y)), "lfs", "mirrored");
-            certified(entry, &shuffled(&pslg, 5), "lfs", "shuffled");
+            certified(method, &mapped(&pslg, |p| DVec2::new(-p.x, p.y)), "lfs", "mirrored");
+            certified(method, &shuffled(&pslg, 5), "lfs", "shuffled");
         }
     }
 }
 
 #[test]
 fn bit_equal_when_run_twice_and_with_any_number_of_threads() {
-    for entry in MESHERS {
+    for method in &methods() {
         for pslg in small_gallery() {
             let (domain, prepared) = prepare(&pslg, "lfs");
-            let meshes = [1, 1, 2, 4].map(|threads| run(entry, &domain, &prepared, threads));
+            let meshes = [1, 1, 2, 4].map(|threads| run(method, &domain, &prepared, threads));
             for mesh in &meshes[1..] {
-                assert_eq!(mesh, &meshes[0], "{} on {}", entry.name, pslg.name);
+                assert_eq!(mesh, &meshes[0], "{} on {}", method.name, pslg.name);
             }
         }
     }
@@ -271,12 +310,12 @@ fn bit_equal_when_run_twice_and_with_any_number_of_threads() {
 
 #[test]
 fn a_budget_ends_in_an_error_that_says_where() {
-    for entry in MESHERS {
+    for method in &methods() {
         let (domain, prepared) = prepare(
             &gallery::pslg("plate-hole").expect("a gallery name").expect("a domain"),
             "lfs",
         );
-        let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+        let mesher = method.make();
         let request = Request {
             budget: Budget {
                 max_vertices: Some(100),
@@ -292,7 +331,7 @@ fn a_budget_ends_in_an_error_that_says_where() {
                     "{budget}, {vertices}"
                 );
             }
-            other => panic!("{}: {other:?}", entry.name),
+            other => panic!("{}: {other:?}", method.name),
         }
     }
 }
@@ -314,16 +353,16 @@ impl Spacing for Broken {
 fn a_spacing_that_breaks_its_promise_is_told_with_the_place() {
     let pslg = gallery::pslg("unit-square").expect("a gallery name").expect("a domain");
     let square = Domain::new(pslg).expect("a valid domain");
-    for entry in MESHERS {
-        let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+    for method in &methods() {
+        let mesher = method.make();
         for value in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
             let told = mesher.mesh(&square, &Broken(value), &request(1), &mut Trace::default());
             let is_told = matches!(told, Err(MeshError::Spacing { x, .. }) if x >= 0.5);
-            assert!(is_told, "{} with {value}: {told:?}", entry.name);
+            assert!(is_told, "{} with {value}: {told:?}", method.name);
         }
         let told = mesher.mesh(&square, &Broken(1e-14), &request(1), &mut Trace::default());
         let is_told = matches!(&told, Err(MeshError::Declined(reason)) if reason.contains("resolve"));
-        assert!(is_told, "{}: {told:?}", entry.name);
+        assert!(is_told, "{}: {told:?}", method.name);
     }
 }
 

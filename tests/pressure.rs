@@ -6,7 +6,7 @@ use biting::geometry::DVec2;
 use biting::mesh::Mesh;
 use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace};
 use biting::quality::{Bounds, judge};
-use biting::spacing::{self, Options, Spacing};
+use biting::spacing::{self, Options, Rule, Spacing};
 
 const T: f64 = 0.25;
 const C_B: f64 = 0.75;
@@ -83,6 +83,7 @@ fn pressed(pslg: &Pslg) -> Vec<Result<(), String>> {
         let bounds = Bounds {
             spacing: &*built.function,
             c_b: C_B,
+            rule: Rule::Earlier,
             lfs_cap: built.lfs_cap,
             integral: None,
             integral_error: 0.0,

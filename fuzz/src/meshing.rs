@@ -101,6 +101,7 @@ fn smallest_feature(domain: &Domain) -> f64 {
 
 fn hold(domain: &Domain, mesh: &biting::mesh::Mesh, prepared: &Prepared, c_b: f64, entry: &biting::meshers::Entry) {
     let bounds = Bounds {
+        rule: entry.rule(&Parameters::new()),
         spacing: &*prepared.function,
         c_b,
         lfs_cap: prepared.lfs_cap,

@@ -7,6 +7,7 @@ use super::style::{self, GREY, INK, Marker};
 use crate::experiment::record::Report;
 use crate::experiment::summary::{Grid, Setting, setting};
 use crate::quality::min_angle_bound_deg;
+use crate::spacing::Rule;
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
 
@@ -68,7 +69,7 @@ impl Figure for SmallestAngle<'_> {
         let mut panel = Panel::new(&left, "", x, y, 70)?;
         let curve: Vec<_> = (0..=100)
             .map(|k| f64::from(k) * 0.005)
-            .map(|t| (t, min_angle_bound_deg(t)))
+            .map(|t| (t, min_angle_bound_deg(Rule::Earlier, t)))
             .collect();
         panel.line(&curve, INK, 2 * FINE as u32)?;
         let middle = (self.grid.c_bs.len() as f64 - 1.0) / 2.0;

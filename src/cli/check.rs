@@ -9,6 +9,7 @@ use crate::mesh::files;
 use crate::meshers::Parameters;
 use crate::peers;
 use crate::quality::{self, Check};
+use crate::spacing::Rule;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -60,7 +61,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let guarantees = entry.map_or_else(Vec::new, |entry| {
                 entry.guaranteed(&arguments.params(), &domain, &*prepared.spacing, c_b)
             });
-            quality::judge(&domain, &mesh, Some(&prepared.bounds(c_b, &guarantees)))
+            let rule = entry.map_or_else(Rule::default, |entry| entry.rule(&arguments.params()));
+            quality::judge(&domain, &mesh, Some(&prepared.bounds(c_b, rule, &guarantees)))
         }
         _ => quality::judge(&domain, &mesh, None),
     };

@@ -4,6 +4,7 @@ use super::exit::{Failure, Outcome};
 use super::output::say;
 use crate::lemmas::findings::FINDINGS;
 use crate::lemmas::measured::Meshes;
+use crate::lemmas::nearest::{self, Found};
 use crate::lemmas::table::{self, Line, sign};
 use crate::lemmas::{self, errata};
 use std::path::{Path, PathBuf};
@@ -13,6 +14,9 @@ pub struct Arguments {
     /// Only the statements and findings whose name begins so, in full, and write nothing
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
+    /// First search for the meshes that come nearest to the bounds, which takes minutes
+    #[arg(long, conflicts_with = "only")]
+    nearest: bool,
     /// Folder that holds `results` and `paper`
     #[arg(long, value_name = "FOLDER", default_value = ".")]
     root: PathBuf,
@@ -22,6 +26,15 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let lines = match &arguments.only {
         Some(name) => show(&arguments.root, name)?,
         None => {
+            if arguments.nearest {
+                let found = |found: &Found| {
+                    say(format_args!(
+                        "{} at t = {}: {}",
+                        found.statement, found.cell.t, found.worst
+                    ))
+                };
+                nearest::search(&arguments.root, found).map_err(Failure::Input)?;
+            }
             let (lines, written) = lemmas::write(&arguments.root).map_err(Failure::input)?;
             lines.iter().for_each(|line| say(summary(line)));
             for path in written {

@@ -276,7 +276,8 @@ fn in_number_order(a: &str, b: &str) -> std::cmp::Ordering {
 
 /// The rows in which all methods were asked for the same edge length, over t and c_b or a few of these.
 pub fn at_equal_size(rows: &[Row]) -> Contest<'_> {
-    let is_one = |row: &&Row| ["grid", "meshers"].contains(&row.group.as_str()) && row.cell.triangles.is_none();
+    let is_one =
+        |row: &&Row| ["grid", "meshers", "rules"].contains(&row.group.as_str()) && row.cell.triangles.is_none();
     Contest::of(rows.iter().filter(is_one))
 }
 

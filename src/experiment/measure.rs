@@ -84,7 +84,8 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
     let integral = prepared.integral.value;
     let size_ratio = triangles / integral;
     let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*prepared.spacing, c_b);
-    let bounds = prepared.bounds(c_b, &guaranteed);
+    let rule = entry.rule(&cell.params);
+    let bounds = prepared.bounds(c_b, rule, &guaranteed);
     let (poisson, poisson_failed) = poisson(cell, site, run);
     let (statistics, certificate) = quality::judge(&site.domain, &run.mesh, Some(&bounds));
     Report {
@@ -107,7 +108,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
         size_ratio,
         size_ratio_lfs: triangles / site.integral_lfs.value,
         size_efficiency: size_ratio * 0.25 * 3.0f64.sqrt() * c_b * c_b,
-        min_angle_bound_deg: quality::min_angle_bound_deg(t_effective),
+        min_angle_bound_deg: quality::min_angle_bound_deg(rule, t_effective),
         fingerprint: fingerprint(&run.mesh),
         statistics,
         seconds: run.seconds.clone(),

@@ -5,7 +5,7 @@ use super::record::Cell;
 use super::work::Outlook;
 use crate::domain::{self, Domain, DomainError, RepairReport};
 use crate::quality::Bounds;
-use crate::spacing::{self, Background, Integral, Lfs, Options, Spacing, SpacingError};
+use crate::spacing::{self, Background, Integral, Lfs, Options, Rule, Spacing, SpacingError};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -78,11 +78,12 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// What a mesh is held against, if its method guarantees these claims.
-    pub fn bounds<'a>(&'a self, c_b: f64, guaranteed: &'a [&'a str]) -> Bounds<'a> {
+    /// What a mesh is held against, if its method bites by that rule and guarantees these claims.
+    pub fn bounds<'a>(&'a self, c_b: f64, rule: Rule, guaranteed: &'a [&'a str]) -> Bounds<'a> {
         Bounds {
             spacing: &*self.spacing,
             c_b,
+            rule,
             lfs_cap: self.lfs_cap,
             integral: Some(self.integral.value),
             integral_error: self.integral.error,

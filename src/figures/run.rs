@@ -11,7 +11,7 @@ use crate::geometry::tolerance::ALONG_SEGMENT;
 use crate::mesh::{Mesh, Piece};
 use crate::meshers::biting::{Biting, Corners, HeadOn, Order, TO_THE_LETTER};
 use crate::meshers::{Bite, Budget, Mesher, Reason, Request, Trace};
-use crate::spacing::{self, Options, Spacing};
+use crate::spacing::{self, Options, Rule, Spacing};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -81,6 +81,7 @@ impl Run {
             ..Request::new(asked.c_b)
         };
         let mesher = Biting {
+            rule: Rule::Earlier,
             order: asked.order,
             corners: Corners::Bite,
             head_on: HeadOn::Leave,

@@ -149,21 +149,73 @@ impl DiscGrid {
         });
     }
 
+    /// Collects into `near` the discs with a centre closer to `point` than `radius`, the radius that a disc there would have.
+    pub fn within(&self, point: DVec2, radius: f64, near: &mut Vec<Near>) {
+        near.clear();
+        let radii = [(1.0 - self.t) * radius, (1.0 + self.t) * radius];
+        self.visit_centres(
+            point,
+            radii,
+            |_| radius,
+            |candidate| {
+                if candidate.distance_squared < radius * radius {
+                    near.push(candidate);
+                }
+            },
+        );
+    }
+
+    /// Collects into `near` the discs B(y, r) for which there may be a point z with a radius g(z) above ‖z − y‖ and above
+    /// ‖z − centre‖, where g is the t-Lipschitz function that all radii are values of.
+    ///
+    /// Then g(z) ≤ g(y) + t ‖z − y‖ < g(y) + t g(z), so g(z) < r / (1 − t), and likewise for `radius`: so y is closer than
+    /// 2 min(r, `radius`) / (1 − t). And r is between (1 − t) g(z) and (1 + t) g(z), as is `radius`.
+    pub fn sharing(&self, centre: DVec2, radius: f64, near: &mut Vec<Near>) {
+        near.clear();
+        let reach = |r: f64| 2.0 * r / (1.0 - self.t);
+        let steepest = (1.0 + self.t) / (1.0 - self.t);
+        self.visit_centres(
+            centre,
+            [radius / steepest, radius * steepest],
+            |_| reach(radius),
+            |candidate| {
+                let reach = reach(radius.min(candidate.radius));
+                if candidate.distance_squared < reach * reach {
+                    near.push(candidate);
+                }
+            },
+        );
+    }
+
     /// Calls `visit` for every disc that may meet `B(centre, extent)`, in an order that depends on the discs alone.
     ///
     /// A disc B(y, r) that does has ‖y − centre‖ < extent + r, and |r − radius| ≤ t ‖y − centre‖: so r lies between
     /// (radius − t · extent) / (1 + t) and (radius + t · extent) / (1 − t), and y within (radius + extent) / (1 − t).
-    fn visit(&self, centre: DVec2, radius: f64, extent: f64, mut visit: impl FnMut(Near)) {
-        let smallest = (radius - self.t * extent) / ((1.0 + self.t) * ROOM);
-        let largest = ROOM * (radius + self.t * extent) / (1.0 - self.t);
+    fn visit(&self, centre: DVec2, radius: f64, extent: f64, visit: impl FnMut(Near)) {
+        let radii = [
+            (radius - self.t * extent) / (1.0 + self.t),
+            (radius + self.t * extent) / (1.0 - self.t),
+        ];
         let reach = ROOM * (radius + extent) / (1.0 - self.t);
-        for level in level_of(smallest)..=level_of(largest) {
+        // Radii of a level are below its cell size.
+        self.visit_centres(centre, radii, |cell_size| reach.min(extent + cell_size), visit);
+    }
+
+    /// Calls `visit` for every disc whose radius is in a range and whose centre is within what `reach` gives for the size of
+    /// a level's cells.
+    fn visit_centres(
+        &self,
+        centre: DVec2,
+        [smallest, largest]: [f64; 2],
+        reach: impl Fn(f64) -> f64,
+        mut visit: impl FnMut(Near),
+    ) {
+        for level in level_of(smallest / ROOM)..=level_of(ROOM * largest) {
             if self.level_sizes[(level - LOWEST_LEVEL) as usize] == 0 {
                 continue;
             }
             let inverse = inverse_cell_size(level);
-            // Radii of a level are below its cell size.
-            let reach = reach.min(extent + 1.0 / inverse);
+            let reach = reach(1.0 / inverse);
             let (low, high) = (centre - reach, centre + reach);
             let columns = (cell_of(low.x, inverse), cell_of(high.x, inverse));
             let rows = (cell_of(low.y, inverse), cell_of(high.y, inverse));
@@ -243,150 +295,4 @@ pub(super) fn cell_in_block(column: i64, row: i64) -> usize {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    #[test]
-    fn circles_meet_where_pythagoras_says() {
-        assert!((meeting_height(6.0, 5.0, 5.0) - 4.0).abs() < 1e-15);
-        assert!((meeting_height(21.0, 13.0, 20.0) - 12.0).abs() < 1e-14);
-        assert_eq!(meeting_height(3.0, 1.0, 1.0), 0.0);
-    }
-
-    #[test]
-    fn the_least_height_is_the_papers_by_hand() {
-        assert!((least_meeting_height(0.0) - 7f64.sqrt() / 4.0).abs() < 1e-15);
-        // ½ √((¼ − 2 + 7) ¾) / 4.
-        assert!((least_meeting_height(0.5) - 63f64.sqrt() / 32.0).abs() < 1e-15);
-        assert_eq!(least_meeting_height(1.0), 0.0);
-    }
-
-    /// Radius 0.01 + t·|x|: t-Lipschitz, graded over two powers of ten.
-    fn disc_at(centre: DVec2, t: f64) -> Disc {
-        Disc {
-            centre,
-            radius: 0.01 + t * centre.x.abs(),
-        }
-    }
-
-    /// A disc as one at the origin sees it.
-    fn seen(x: f64, y: f64, radius: f64) -> Near {
-        let offset = DVec2::new(x, y);
-        Near {
-            id: 0,
-            offset,
-            distance_squared: offset.length_squared(),
-            radius,
-        }
-    }
-
-    #[test]
-    fn circles_cross_on_both_circles_right_point_first() {
-        for (radius, other) in [
-            (1.0, seen(1.0, 0.0, 1.0)),
-            (2.0, seen(0.0, 3.0, 2.5)),
-            (5.0, seen(-3.0, 1.0, 2.2)),
-            (0.25, seen(0.2, -0.3, 0.5)),
-        ] {
-            let [right, left] = circle_intersections(radius, &other);
-            for point in [right, left] {
-                assert!((point.length() - radius).abs() < 1e-14);
-                assert!((point.distance(other.offset) - other.radius).abs() < 1e-14);
-            }
-            assert!(other.offset.perp_dot(right) < 0.0 && other.offset.perp_dot(left) > 0.0);
-        }
-        assert_eq!(circle_intersections(1.0, &seen(3.0, 0.0, 2.0)), [DVec2::X; 2]);
-        assert_eq!(circle_intersections(1.0, &seen(0.0, 4.0, 2.0)), [1.625 * DVec2::Y; 2]);
-    }
-
-    #[test]
-    fn a_level_is_the_binary_exponent() {
-        for (radius, level) in [(1.0, 0), (1.99, 0), (2.0, 1), (0.75, -1), (1e-300, -997)] {
-            assert_eq!(level_of(radius), level);
-            assert_eq!(inverse_cell_size(level), 0.5f64.powi(level + 1));
-        }
-    }
-
-    #[test]
-    fn cells_are_half_open_and_eight_by_eight_make_a_block() {
-        for (coordinate, cell) in [
-            (0.0, 0),
-            (0.49, 0),
-            (0.5, 1),
-            (3.75, 7),
-            (-0.25, -1),
-            (-0.5, -1),
-            (-0.75, -2),
-        ] {
-            assert_eq!(cell_of(coordinate, 2.0), cell);
-        }
-        assert_eq!(
-            [(0, 0), (7, 0), (0, 1), (8, 9), (-1, -1)].map(|(c, r)| cell_in_block(c, r)),
-            [0, 7, 8, 8, 63]
-        );
-    }
-
-    #[test]
-    fn discs_are_open_and_counted() {
-        let mut grid = DiscGrid::new(0.0);
-        assert_eq!((grid.is_empty(), grid.len()), (true, 0));
-        let discs = [0.0, 4.0].map(|x| Disc {
-            centre: DVec2::new(x, 0.0),
-            radius: 1.0,
-        });
-        assert_eq!(discs.map(|disc| grid.insert(disc)), [0, 1]);
-        assert!(!grid.is_empty() && grid.len() == 2);
-        assert_eq!(
-            (grid.disc(1), grid.discs().collect::<Vec<_>>()),
-            (discs[1], discs.to_vec())
-        );
-        let mut near = Vec::new();
-        let mut covering = |x: f64, tolerance: f64| {
-            grid.covering(DVec2::new(x, 0.0), 1.0, tolerance, &mut near);
-            near.iter().map(|disc| disc.id).collect::<Vec<_>>()
-        };
-        assert_eq!(covering(1.0, 0.0), [0u32; 0]);
-        assert_eq!(covering(0.95, 0.0), [0]);
-        assert_eq!(covering(0.95, 0.1), [0u32; 0]);
-        assert_eq!(covering(0.85, 0.1), [0]);
-        assert_eq!(covering(1.05, 0.1), [0u32; 0]);
-        grid.meeting(DVec2::new(2.0, 0.0), 1.0, &mut near);
-        assert!(near.is_empty());
-        grid.around(DVec2::new(2.0, 0.0), 1.0, 1.25, &mut near);
-        assert_eq!(near.len(), 2);
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(64))]
-        #[test]
-        fn queries_find_what_a_loop_finds(
-            centres in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 1..200),
-            query in (-1.0..1.0f64, -1.0..1.0f64),
-            t in 0.0..0.9f64,
-            share in 0.0..3.0f64,
-            scale in prop::sample::select(vec![1.0, 1024.0, 1.0 / 1024.0]),
-        ) {
-            let disc_at = |centre: DVec2, t| {
-                let disc = disc_at(centre, t);
-                Disc { centre: scale * disc.centre, radius: scale * disc.radius }
-            };
-            let discs: Vec<Disc> = centres.iter().map(|&c| disc_at(c.into(), t)).collect();
-            let mut grid = DiscGrid::new(t);
-            discs.iter().for_each(|&disc| { grid.insert(disc); });
-            let query = disc_at(query.into(), t);
-            let loop_over = |keep: &dyn Fn(&Disc) -> bool| -> Vec<u32> {
-                (0..discs.len() as u32).filter(|&id| keep(&discs[id as usize])).collect()
-            };
-            let mut near = Vec::new();
-            let sorted = |near: &[Near]| { let mut ids: Vec<u32> = near.iter().map(|n| n.id).collect(); ids.sort_unstable(); ids };
-            grid.meeting(query.centre, query.radius, &mut near);
-            prop_assert_eq!(sorted(&near), loop_over(&|d| d.centre.distance(query.centre) < d.radius + query.radius));
-            grid.covering(query.centre, query.radius, 0.0, &mut near);
-            prop_assert_eq!(sorted(&near), loop_over(&|d| d.centre.distance(query.centre) < d.radius));
-            let reach = query.radius * share.min(0.9 / t);
-            grid.around(query.centre, query.radius, reach, &mut near);
-            prop_assert_eq!(sorted(&near), loop_over(&|d| d.centre.distance(query.centre) < d.radius + reach));
-        }
-    }
-}
+mod tests;

@@ -19,6 +19,10 @@ pub const CENTRE_ULPS: f64 = 10.0;
 /// vertices, and a hundredth of [`CERTIFICATE`] can never make the certificate fail.
 pub const COVERED: f64 = 1e-11;
 
+/// Biting by the rule of the later point: where a line leaves what is eaten is found to this share of the radius there: a
+/// hundredth of [`COVERED`].
+pub const EATEN: f64 = 1e-13;
+
 /// Spacing: the smallest target edge length a mesher takes, relative to the largest coordinate. Below it, points one
 /// edge apart differ in their last ten bits only, and intersections of circles mean nothing.
 pub const RESOLUTION: f64 = 1.0 / (1u64 << 42) as f64;

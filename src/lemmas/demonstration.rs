@@ -60,7 +60,7 @@ impl Demonstration {
     /// What kept it from being done.
     pub fn run(&self) -> Result<Vec<Shown>, String> {
         match self {
-            Self::Mesh(run) => run.report().map(|report| (run.shows)(&report)),
+            Self::Mesh(run) => report(&run.cell()).map(|report| (run.shows)(&report)),
             Self::Numbers(numbers) => numbers(),
         }
     }
@@ -85,17 +85,20 @@ impl MeshRun {
     fn command(&self) -> String {
         format!("cargo run --release -- mesh {}{}", self.domain, self.cell().options())
     }
+}
 
-    fn report(&self) -> Result<Report, String> {
-        let cell = self.cell();
-        let (entry, mesher) = runner::mesher(&cell)?;
-        let prepared = Store::new(None, false)
-            .prepare_for_t(&cell)
-            .map_err(|error| error.to_string())?;
-        let request = Request::new(cell.c_b);
-        let run = measure::run(&prepared, &*mesher, &request).map_err(|error| error.to_string())?;
-        Ok(measure::judge(&prepared, &cell, entry, &run, &machine::provenance()))
-    }
+/// Makes the mesh of `cell` and judges it.
+pub(super) fn report(cell: &Cell) -> Result<Report, String> {
+    let (entry, mesher) = runner::mesher(cell)?;
+    let prepared = Store::new(None, false)
+        .prepare_for_t(cell)
+        .map_err(|error| error.to_string())?;
+    let request = Request {
+        seed: cell.seed,
+        ..Request::new(cell.c_b)
+    };
+    let run = measure::run(&prepared, &*mesher, &request).map_err(|error| error.to_string())?;
+    Ok(measure::judge(&prepared, cell, entry, &run, &machine::provenance()))
 }
 
 /// Lemma 2.1's strip: a rectangle 2 high and 12 long, with f = 2 + dist(x, ∂Ω) held to lfs at its ends.

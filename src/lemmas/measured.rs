@@ -3,7 +3,7 @@
 use super::record::{Measured, Statement};
 use crate::experiment::journal::{JournalError, read_rows};
 use crate::experiment::record::{Outcome, Report, Row};
-use crate::experiment::summary::rounded;
+use crate::experiment::summary::{parameter, rounded};
 use std::path::Path;
 
 /// The rows of meshes by biting, of all experiments in a results folder.
@@ -46,9 +46,10 @@ impl Meshes {
                 continue;
             }
             let read: Vec<Row> = read_rows(&folder.join("rows.jsonl"))?;
+            let is_the_papers = |row: &Row| row.cell.mesher == "biting" && parameter(row, "rule") != Some("later");
             let by_biting = read
                 .into_iter()
-                .filter(|row| row.outcome == Outcome::Measured && row.cell.mesher == "biting");
+                .filter(|row| row.outcome == Outcome::Measured && is_the_papers(row));
             rows.extend(by_biting.map(|row| (name.clone(), row)));
         }
         Ok(Self { rows })

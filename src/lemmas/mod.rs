@@ -2,7 +2,8 @@
 //!
 //! * **Numerically** ([`search`]): the optimum of the bounded quantity over all configurations that the hypotheses allow, bracketed by
 //!   interval branch and bound, against the printed formula, over a grid of the parameter.
-//! * **On meshes** ([`measured`]): the worst margin over all committed rows, with the cell it was seen in.
+//! * **On meshes** ([`measured`]): the worst margin over all committed rows, with the cell it was seen in; and [`nearest`]: what
+//!   a search for the mesh nearest to each bound found.
 //!
 //! [`statements`] has the records in the order of the paper, [`errata`] what came out beside numbers.
 
@@ -12,6 +13,7 @@ pub mod findings;
 pub mod judge;
 mod linear;
 pub mod measured;
+pub mod nearest;
 pub mod record;
 pub mod search;
 pub mod slopes;
@@ -35,7 +37,10 @@ pub fn write(root: &Path) -> Result<(Vec<Line>, Vec<PathBuf>), String> {
     let rows: String = lines.iter().map(|line| line.row().to_string() + "\n").collect();
     let files = [
         (results.join("lemmas/rows.jsonl"), rows),
-        (results.join("lemmas/README.md"), table::page(&lines, &meshes)),
+        (
+            results.join("lemmas/README.md"),
+            table::page(&lines, &meshes, &nearest::again(root)?),
+        ),
         (root.join("paper/errata.md"), errata::page(&lines)?),
     ];
     let mut written = Vec::new();

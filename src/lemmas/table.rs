@@ -2,6 +2,7 @@
 
 use super::judge::{Judged, Verdict, grid, optima, verdict};
 use super::measured::{Meshes, Worst};
+use super::nearest::{self, Found};
 use super::record::{Bound, Statement};
 use super::statements;
 use crate::charts::BoundFigure;
@@ -173,7 +174,7 @@ pub fn judge_all(meshes: &Meshes, only: Option<&str>) -> Vec<Line> {
 }
 
 /// The page.
-pub fn page(lines: &[Line], meshes: &Meshes) -> String {
+pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found]) -> String {
     let count = |word: &str| lines.iter().filter(|line| line.printed.word() == word).count();
     let mut text = format!(
         "# The paper's statements, judged twice\n\nMade by `cargo run --release -- lemmas` from the records in `src/lemmas/statements`; nothing here is typed.\n\n\
@@ -205,6 +206,7 @@ pub fn page(lines: &[Line], meshes: &Meshes) -> String {
     );
     text += "## Where the worst was seen\n\n";
     text += &where_seen(lines);
+    text += &nearest::section(nearest);
     text += "## Figures\n\n";
     text += &figures(lines);
     text += "## What each needs and what rests on it\n\n";

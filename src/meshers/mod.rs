@@ -2,7 +2,7 @@
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::spacing::{Background, Spacing};
+use crate::spacing::{Background, Rule, Spacing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -49,7 +49,7 @@ pub struct Guarantee {
     pub claim: &'static str,
     /// Parameters and their values that it is guaranteed with, written as in [`Parameter::default`].
     pub with: &'static [(&'static str, &'static str)],
-    /// Whether only in plain cases: no angle under 90° between neighbouring segments, c_b + t ≤ 1.
+    /// Whether only in plain cases: no angle under 90° between neighbouring segments and, by the paper's rule, c_b + t ≤ 1.
     pub plain: bool,
 }
 
@@ -79,9 +79,9 @@ impl Guarantee {
 }
 
 /// Whether neither the domain nor the request needs anything that the paper does not have: no angle under 90° between
-/// neighbouring segments, inside or outside, and c_b + t ≤ 1.
-fn is_plain(domain: &Domain, spacing: &dyn Spacing, c_b: f64) -> bool {
-    domain.has_no_acute_angle() && c_b + c_b * spacing.lipschitz() <= 1.0
+/// neighbouring segments, inside or outside, and c_b + t ≤ 1, which the rule of the later point has no need of.
+fn is_plain(domain: &Domain, spacing: &dyn Spacing, c_b: f64, rule: Rule) -> bool {
+    domain.has_no_acute_angle() && (rule == Rule::Later || c_b + c_b * spacing.lipschitz() <= 1.0)
 }
 
 impl Entry {
@@ -95,6 +95,15 @@ impl Entry {
         all
     }
 
+    /// Whose spacing sets the distance of two points with the parameters given: the paper's rule where the method knows no
+    /// other.
+    pub fn rule(&self, given: &Parameters) -> Rule {
+        let named = self.complete(given).remove("rule");
+        named
+            .and_then(|rule| serde_json::from_value(rule).ok())
+            .unwrap_or_default()
+    }
+
     /// The claims guaranteed with the parameters given, for a domain, a spacing and c_b.
     pub fn guaranteed(
         &self,
@@ -103,7 +112,7 @@ impl Entry {
         spacing: &dyn Spacing,
         c_b: f64,
     ) -> Vec<&'static str> {
-        let is_plain = is_plain(domain, spacing, c_b);
+        let is_plain = is_plain(domain, spacing, c_b, self.rule(given));
         let all = self.complete(given);
         let has = |(name, value): &(&str, &str)| all.get(*name) == Some(&parameter_value(value));
         let mut claims: Vec<&'static str> = Vec::new();

@@ -37,6 +37,11 @@ impl<'a> Sizing<'a> {
         self.c_b * self.spacing.lipschitz()
     }
 
+    /// s(x) as it comes: for points that may lie outside the domain, where f promises nothing.
+    pub fn unchecked(&self, x: DVec2) -> f64 {
+        self.c_b * self.spacing.at(x)
+    }
+
     /// s(x).
     pub fn at(&self, x: DVec2) -> Result<f64, MeshError> {
         let value = self.spacing.at(x);

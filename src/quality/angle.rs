@@ -9,7 +9,7 @@ use crate::geometry::tolerance::{CERTIFICATE, SAME_VERTEX_ULPS};
 /// `min-angle` and `min-angle-beyond-corners`: in degrees, over the triangles that touch no vertex with an input angle
 /// under 60°. They differ in what they need.
 pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
-    let bound = min_angle_bound_deg(sizes.t());
+    let bound = min_angle_bound_deg(sizes.bounds.rule, sizes.t());
     let tally = over_triangles(subject, |tally, t| {
         if !subject.is_excused(t) {
             let corners = subject.mesh.corners(t);

@@ -12,6 +12,7 @@ use super::{Check, parallel, shape};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::{CENTRE_ULPS, CERTIFICATE};
+use crate::spacing::Rule;
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
@@ -38,6 +39,13 @@ pub fn packing_check(sizes: &Sizes) -> Check {
 
 /// `coverage` of a mesh; `is_whole` where its triangles are known to make up the domain.
 pub fn coverage_check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
+    match sizes.bounds.rule {
+        Rule::Earlier => circles_check(subject, sizes, is_whole),
+        Rule::Later => eaten::check(subject, sizes, is_whole),
+    }
+}
+
+fn circles_check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
     let discs = sizes.circles.discs();
     let open = is_whole.then(|| open_triangles(subject, sizes));
     let parts = parallel::map_ranges(discs.len(), |range| {
@@ -259,5 +267,6 @@ fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
     worst
 }
 
+mod eaten;
 #[cfg(test)]
 mod tests;

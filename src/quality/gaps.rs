@@ -162,12 +162,13 @@ mod tests {
     use crate::meshers::biting::{Biting, Corners, HeadOn, Order};
     use crate::meshers::{Budget, Mesher, Request, Trace};
     use crate::quality::{Bounds, judge};
-    use crate::spacing::{self, Options, Spacing};
+    use crate::spacing::{self, Options, Rule, Spacing};
 
     fn beta(domain: &Domain, mesh: &Mesh, spacing: &dyn Spacing, c_b: f64) -> f64 {
         let bounds = Bounds {
             spacing,
             c_b,
+            rule: Rule::Earlier,
             lfs_cap: true,
             integral: None,
             integral_error: 0.0,
@@ -223,6 +224,7 @@ mod tests {
             };
             for order in [Order::Largest, Order::Fifo] {
                 let mesh = Biting {
+                    rule: Rule::Earlier,
                     order,
                     corners: Corners::Bite,
                     head_on: HeadOn::Leave,

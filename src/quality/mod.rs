@@ -29,6 +29,19 @@
 //! | `vertices-lower` | follows from 5.5 | vertices ≥ (1 − t)² I / (π c_b²) | t < 1 |
 //! | `vertices-upper` | follows from 5.4 | vertices, by share of packing circle, ≤ 4 (1 + t)² I / (π c_b²) | f ≤ lfs, c_b ≤ 1 |
 //!
+//! These are for the rule of the paper. By that of the later point ([`Rule::Later`]), which the judge is told of, the same
+//! claims say:
+//! | claim | says | needs |
+//! |---|---|---|
+//! | `coverage` | every point z of Ω has ‖x − z‖ ≤ c_b f(z) for some x | t < 1 |
+//! | `min-angle` | sin θ ≥ (1 − t) / 2 | f ≤ lfs, c_b ≤ 1, t < 1, no angle under 90° |
+//! | `min-angle-beyond-corners` | the same in triangles that touch no input angle under 60° | f ≤ lfs, c_b ≤ 1, t ≤ 1/2, corners cut off |
+//! | `nn-vertex-lower`, `-upper` | c_b / (1 + t) f ≤ nn ≤ 2 c_b / (1 − t) f at vertices | f ≤ lfs, c_b ≤ 1, t < 1 |
+//! | `nn-point-lower`, `-upper` | c_b / (2 + t) f ≤ nn ≤ (3 + t) c_b / (1 − t) f elsewhere | the same |
+//! | `vertices-lower` | vertices ≥ t² I / (−2π c_b² (ln(1 − t) + t)) | t < 1 |
+//!
+//! `packing-disjoint` and `vertices-upper` are as they were, and `boundary-height` is only measured.
+//!
 //! `low_head_on` counts the input segments that the circles of their two input vertices cover between them, meeting
 //! lower than (9): a case that the paper excludes without saying so, possible only where c_b + t > 1 (`protection.rs`
 //! has the reason).
@@ -59,6 +72,7 @@ mod coverage;
 mod discs;
 mod gaps;
 mod parallel;
+mod promises;
 mod protection;
 mod shape;
 mod spread;
@@ -73,7 +87,7 @@ pub use shape::{angles_deg, circumcentre};
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::spacing::{FLAT_T, Spacing};
+use crate::spacing::{FLAT_T, Rule, Spacing};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
@@ -216,6 +230,8 @@ pub struct Bounds<'a> {
     pub spacing: &'a dyn Spacing,
     /// Biting constant.
     pub c_b: f64,
+    /// Whose spacing sets the distance of two points: the bounds follow it.
+    pub rule: Rule,
     /// Whether f ≤ lfs is known.
     pub lfs_cap: bool,
     /// ∫_Ω dA / f²; without it there are no bounds on the number of vertices.
@@ -233,6 +249,8 @@ pub struct Hypotheses {
     pub t: f64,
     /// Biting constant.
     pub c_b: f64,
+    /// Whose spacing sets the distance of two points.
+    pub rule: Rule,
     /// Whether f ≤ lfs.
     pub lfs_cap: bool,
     /// Smallest angle between neighbouring segments on any side, inside or out, degrees; 360 if none.
@@ -249,6 +267,7 @@ impl Hypotheses {
         Self {
             t: bounds.c_b * bounds.spacing.lipschitz(),
             c_b: bounds.c_b,
+            rule: bounds.rule,
             lfs_cap: bounds.lfs_cap,
             smallest_segment_angle_deg: domain.smallest_segment_angle_deg(),
             low_head_on,
@@ -261,6 +280,14 @@ impl Hypotheses {
         self.vertices_apart() && self.t <= 1.0 / 3.0 && self.has_no_small_angle()
     }
 
+    /// What Theorem 6.8 needs, stated or not; by the rule of the later point, any t < 1 will do.
+    fn of_theorem_6_8(&self) -> bool {
+        match self.rule {
+            Rule::Earlier => self.of_section_6() && self.low_head_on == 0,
+            Rule::Later => self.vertices_apart() && self.t < 1.0 && self.has_no_small_angle(),
+        }
+    }
+
     /// Circles around input vertices hold no other input vertex (Lemma 5.1).
     fn vertices_apart(&self) -> bool {
         self.lfs_cap && self.c_b <= 1.0
@@ -269,8 +296,9 @@ impl Hypotheses {
     /// Whether corners can be cut off so that the angle bound holds beyond them: to the sizes cut off there, the spacing
     /// must come down with t.
     fn corners_can_be_cut(&self) -> bool {
-        let is_plain = self.c_b + self.t <= 1.0 && self.has_no_small_angle();
-        self.vertices_apart() && self.t <= 1.0 / 3.0 && (self.t >= FLAT_T || is_plain)
+        let is_plain = (self.rule == Rule::Later || self.c_b + self.t <= 1.0) && self.has_no_small_angle();
+        let steepest = self.rule.of(1.0 / 3.0, 1.0 / 2.0);
+        self.vertices_apart() && self.t <= steepest && (self.t >= FLAT_T || is_plain)
     }
 
     fn has_no_small_angle(&self) -> bool {
@@ -282,8 +310,8 @@ impl Hypotheses {
         match claim {
             "packing-disjoint" | "vertices-upper" => self.vertices_apart(),
             "coverage" | "vertices-lower" => self.t < 1.0,
-            "boundary-height" => self.of_section_6(),
-            "min-angle" => self.of_section_6() && self.low_head_on == 0,
+            "boundary-height" => self.rule == Rule::Earlier && self.of_section_6(),
+            "min-angle" => self.of_theorem_6_8(),
             "min-angle-beyond-corners" => self.corners_can_be_cut(),
             "corner-angles" => self.single_corners,
             _ => self.vertices_apart() && self.t < 1.0,
@@ -298,9 +326,9 @@ fn has_single_corners(domain: &Domain) -> bool {
     })
 }
 
-/// Theorem 6.8: asin(1/2 − t) in degrees, 0 for t ≥ 1/2.
-pub fn min_angle_bound_deg(t: f64) -> f64 {
-    (0.5 - t).max(0.0).asin().to_degrees()
+/// Theorem 6.8: asin(1/2 − t) in degrees, 0 for t ≥ 1/2; asin((1 − t) / 2) by the rule of the later point.
+pub fn min_angle_bound_deg(rule: Rule, t: f64) -> f64 {
+    promises::Promises { rule, t }.least_sine().asin().to_degrees()
 }
 
 /// Statistics and certificate of a mesh of `domain`; `bounds` adds what needs a spacing.

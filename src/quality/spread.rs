@@ -11,17 +11,12 @@ use std::f64::consts::{PI, TAU};
 /// `nn-vertex-lower`, `nn-vertex-upper`, `nn-point-lower`, `nn-point-upper` and, with an integral, `vertices-lower` and
 /// `vertices-upper`.
 pub fn checks(subject: &Subject, sizes: &Sizes) -> Vec<Check> {
-    let (t, c_b) = (sizes.t(), sizes.bounds.c_b);
-    // Without t < 1 there is nothing above.
-    let upper = |bound: f64| if t < 1.0 { bound } else { f64::INFINITY };
-    let vertex = Between {
-        low: c_b * (1.0 - t).max(0.0),
-        high: upper(2.0 * c_b / (1.0 - t)),
+    let (promises, c_b) = (sizes.promises(), sizes.bounds.c_b);
+    let between = |[low, high]: [f64; 2]| Between {
+        low: c_b * low,
+        high: c_b * high,
     };
-    let point = Between {
-        low: c_b / (2.0 + 2.0 * t),
-        high: upper((3.0 - t) * c_b / ((1.0 - t) * (1.0 - t))),
-    };
+    let (vertex, point) = (between(promises.nn_at_vertices()), between(promises.nn_at_points()));
     let points = &subject.mesh.points;
     let at_vertices = vertex.measure(points.len(), |k| {
         Some(Sample {
@@ -100,9 +95,8 @@ impl Between {
 fn vertex_counts(subject: &Subject, sizes: &Sizes, integral: f64) -> [Check; 2] {
     let (t, c_b) = (sizes.t(), sizes.bounds.c_b);
     let error = sizes.bounds.integral_error;
-    let disc = PI * c_b * c_b;
-    let fewest = (1.0 - t).max(0.0).powi(2) * integral * (1.0 - error) / disc;
-    let most = 4.0 * (1.0 + t).powi(2) * integral * (1.0 + error) / disc;
+    let fewest = integral * (1.0 - error) / (sizes.promises().most_eaten() * c_b * c_b);
+    let most = 4.0 * (1.0 + t).powi(2) * integral * (1.0 + error) / (PI * c_b * c_b);
     let vertices = subject.mesh.points.len() as f64;
     let shares = packing_shares(subject, sizes);
     let check = |claim: &str, lemma: &str, worst: f64, bound: f64, holds: bool| Check {

@@ -2,6 +2,7 @@
 
 use super::boundary::Boundary;
 use super::discs::DiscTree;
+use super::promises::Promises;
 use super::protection::Heights;
 use super::{Bounds, Hypotheses, parallel, shape};
 use crate::domain::Domain;
@@ -130,6 +131,14 @@ impl<'a> Sizes<'a> {
     /// t as the checks use it.
     pub fn t(&self) -> f64 {
         self.hypotheses.t
+    }
+
+    /// The bounds for the rule and t at hand.
+    pub fn promises(&self) -> Promises {
+        Promises {
+            rule: self.bounds.rule,
+            t: self.t(),
+        }
     }
 
     /// Whether a claim is guaranteed: by the method, where the hypotheses hold.

@@ -7,6 +7,7 @@ use crate::mesh::Piece;
 use proptest::prelude::*;
 
 mod bounds_by_hand;
+mod by_later;
 mod covering;
 mod hypotheses;
 mod matching;
@@ -66,6 +67,7 @@ fn bounds(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
     Bounds {
         spacing,
         c_b,
+        rule: Rule::Earlier,
         lfs_cap: true,
         integral: Some(1.0),
         integral_error: 0.0,

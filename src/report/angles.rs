@@ -4,6 +4,7 @@ use super::findings::{low_overlaps, margin, margins, ours};
 use super::markdown::{degrees, parameter, table};
 use crate::experiment::record::Row;
 use crate::experiment::summary::{Grid, Setting};
+use crate::spacing::Rule;
 
 /// How far smallest angles lie above asin(1/2 − t).
 pub(super) fn angle_finding(rows: &[Row]) -> Option<String> {
@@ -70,7 +71,7 @@ pub(super) fn angles(rows: &[Row]) -> String {
                     degrees(spread.map(|s| s.median)),
                 ]
             });
-        let bound = crate::quality::min_angle_bound_deg(margin.t);
+        let bound = crate::quality::min_angle_bound_deg(Rule::Earlier, margin.t);
         [parameter(margin.t), degrees(bound)].into_iter().chain(three).collect()
     });
     let head = [

@@ -18,6 +18,7 @@ pub(super) enum Section {
     Fewest,
     Frontier,
     Corners,
+    Rules,
     Orders,
     Time,
     Rivals,
@@ -67,6 +68,11 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Chart>, ChartError
     draw_frontiers(rows, &mut drawer)?;
     draw_poisson(rows, &mut drawer)?;
     draw_adaptation(rows, &mut drawer)?;
+    let by_rule = findings::of_group(rows, "rules");
+    if !by_rule.is_empty() {
+        let caption = "Smallest angles by either rule of who bites whom, against t, with the bound of each.";
+        charts::rules(&by_rule, &drawer.next(Section::Rules, "rules", caption))?;
+    }
     draw_orders(rows, &mut drawer)?;
     let series = time_series(&findings::ours(rows, "time"));
     if !series.is_empty() {

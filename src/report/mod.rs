@@ -20,6 +20,7 @@ mod poisson;
 mod quote;
 mod ranks;
 mod rivals;
+mod rules;
 mod sections;
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use super::peers;
 use super::poisson;
 use super::ranks;
 use super::rivals;
+use super::rules;
 use super::sections;
 use crate::experiment::record::{Outcome, Row};
 use crate::experiment::summary::{by_spacing, first_seen, measured, quantile};
@@ -51,6 +52,7 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
             Section::Frontier,
         ),
         ("Corners", corners::corners(rows), Section::Corners),
+        ("Who bites whom", rules::rules(rows), Section::Rules),
         ("Orders of bites", sections::orders(rows), Section::Orders),
         ("Time of biting, step by step", sections::time(rows), Section::Time),
         ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
@@ -124,6 +126,7 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
     let lines = lines
         .into_iter()
         .flatten()
+        .chain(rules::rule_findings(rows))
         .chain(compared)
         .chain(ranks::rank_finding(rows))
         .chain(claims.into_iter().flatten());

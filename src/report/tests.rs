@@ -3,6 +3,7 @@
 mod adapt;
 mod outside;
 mod rivals;
+mod rules;
 
 use super::findings::{broken_checks, claims, fewest, margins, of_group, order_findings, slopes, tally};
 use super::fixture::{lines, measured, row, sweep};

@@ -37,6 +37,7 @@ mod parse;
 mod program;
 mod proved;
 mod recover;
+mod rule;
 mod samples;
 mod settings;
 mod shortlist;
@@ -56,6 +57,7 @@ pub use lfs::{Lfs, Narrowest};
 pub use limited::Limited;
 pub use of_mesh::{EdgeLength, NearestNeighbour};
 pub use parse::{KINDS, Spec, spec_for_size};
+pub use rule::Rule;
 pub use uniform::Uniform;
 
 /// The t = α c_b below which a spacing counts as flat: where biting must come down to a smaller size beside a corner, it

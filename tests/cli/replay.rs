@@ -36,5 +36,8 @@ fn what_is_too_large_or_not_there_is_told() {
         &["figures", "--replay", "l-shape", "--param", "order=none"],
         2,
     );
+    let later = ["figures", "--replay", "l-shape", "--param", "rule=later"];
+    let (_, err) = run(folder.path(), &later, 2);
+    assert!(err.contains("leave out rule"), "{err}");
     assert!(!folder.path().join("paper").exists());
 }

@@ -9,7 +9,7 @@ use crate::experiment::runner::{self, VERTICES_PER_BUDGET_TRIANGLE};
 use crate::mesh::Mesh;
 use crate::meshers::{Budget, MeshError, Request, Trace};
 use crate::quality::{self, Bounds, Check};
-use crate::spacing::{self, Integral, Options, SpacingError, estimate_triangles};
+use crate::spacing::{self, Integral, Options, Rule, SpacingError, estimate_triangles};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -118,7 +118,7 @@ fn attempt(case: &Case) -> Result<Trial, NoMesh> {
         _ => declined(error.to_string()),
     })?;
     let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*site.spacing.function, cell.c_b);
-    let broken = site.broken(cell.c_b, &guaranteed, &mesh);
+    let broken = site.broken((cell.c_b, entry.rule(&cell.params)), &guaranteed, &mesh);
     Ok(Trial {
         verdict: if broken.is_none() {
             Verdict::Certified
@@ -157,10 +157,11 @@ impl Site {
     }
 
     /// The guaranteed checks that a mesh breaks, in words.
-    fn broken(&self, c_b: f64, guaranteed: &[&str], mesh: &Mesh) -> Option<String> {
+    fn broken(&self, (c_b, rule): (f64, Rule), guaranteed: &[&str], mesh: &Mesh) -> Option<String> {
         let bounds = Bounds {
             spacing: &*self.spacing.function,
             c_b,
+            rule,
             lfs_cap: self.spacing.lfs_cap,
             integral: self.integral.map(|integral| integral.value),
             integral_error: self.integral.map_or(0.0, |integral| integral.error),

@@ -25,6 +25,7 @@ use crate::experiment::record::Cell;
 use crate::experiment::runner;
 use crate::files::write_whole;
 use crate::meshers::{Budget, MeshError, Request, Trace};
+use crate::spacing::Rule;
 use std::path::{Path, PathBuf};
 
 /// A page of more bites would be larger than 3 MB or so, and no longer play smoothly.
@@ -69,7 +70,11 @@ pub fn write(folder: &Path, cell: &Cell) -> Result<PathBuf, ReplayError> {
 /// Bites as `cell` asks, and records it.
 fn recording(cell: &Cell) -> Result<Recording, ReplayError> {
     let input = |error: &dyn std::fmt::Display| ReplayError::Input(error.to_string());
-    let (_, mesher) = runner::mesher(cell).map_err(ReplayError::Input)?;
+    let (entry, mesher) = runner::mesher(cell).map_err(ReplayError::Input)?;
+    if entry.rule(&cell.params) == Rule::Later {
+        let told = "a replay draws circles that bite, and by rule=later points eat what is no circle; leave out rule";
+        return Err(ReplayError::Input(told.into()));
+    }
     let store = Store::new(None, false);
     let prepared = store.prepare_for_t(cell).map_err(|error| input(&error))?;
     let request = Request {

@@ -12,6 +12,7 @@ use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use crate::meshers::{Bite, Reason, Waiting};
 use crate::quality;
+use crate::spacing::Rule;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -171,7 +172,7 @@ fn about(cell: &Cell, prepared: &Prepared, mesh: &Mesh) -> About {
             cell.options()
         ),
         min_angle_deg: statistics.min_angle_free_deg,
-        min_angle_bound_deg: quality::min_angle_bound_deg(t),
+        min_angle_bound_deg: quality::min_angle_bound_deg(Rule::Earlier, t),
     }
 }
 

@@ -1,8 +1,8 @@
 //! Boundary protection (§5.1 steps 3 and 4, §6.2): bites at the input vertices, then along the input segments.
 
 use super::front::Front;
+use super::gap::Gap;
 use crate::geometry::near::{Disc, Near};
-use crate::geometry::{DVec2, tolerance};
 use crate::mesh::Piece;
 use crate::meshers::{MeshError, Reason};
 use std::collections::VecDeque;
@@ -57,96 +57,25 @@ pub(super) fn edge_protection(front: &mut Front) -> Result<Vec<Piece>, MeshError
         };
         let (position, disc, reason) = gap.next_bite(front, circle, &mut gaps)?;
         cuts[gap.segment].push((gap.along_segment(position), front.bite_boundary(disc, reason)?));
-        gaps.extend(gap.without(position, disc.radius));
+        gaps.extend(gap.without(front, position, disc)?);
     }
     Ok(Piece::chains(front.domain, cuts))
 }
 
-/// A part of a segment that may be uncovered, seen from the end at which it is bitten next.
-#[derive(Clone, Copy, Debug)]
-struct Gap {
-    segment: usize,
-    /// The segment's end nearer to `low`, and the unit vector from it to the other end.
-    start: DVec2,
-    direction: DVec2,
-    length: f64,
-    /// Whether `start` is the segment's second vertex.
-    reversed: bool,
-    /// The part, by distance from `start`: its end q₁ at which it is bitten, and its far end.
-    low: f64,
-    high: f64,
-}
-
 impl Gap {
-    fn whole(front: &Front, segment: usize) -> Self {
-        let [start, end] = front.domain.ends(segment);
-        let length = start.distance(end);
-        let ends = front.domain.segments()[segment];
-        Self {
-            segment,
-            start,
-            direction: (end - start) / length,
-            length,
-            reversed: false,
-            low: front.cuts.distance(ends.a),
-            high: length - front.cuts.distance(ends.b),
-        }
-    }
-
-    /// The same gap seen from its other end.
-    fn turned(self) -> Self {
-        Self {
-            start: self.start + self.direction * self.length,
-            direction: -self.direction,
-            reversed: !self.reversed,
-            low: self.length - self.high,
-            high: self.length - self.low,
-            ..self
-        }
-    }
-
-    fn at(&self, position: f64) -> DVec2 {
-        self.start + self.direction * position
-    }
-
-    fn circle_at(&self, front: &Front, position: f64) -> Result<Disc, MeshError> {
-        let centre = self.at(position);
-        Ok(Disc {
-            centre,
-            radius: front.radius_at(centre)?,
-        })
-    }
-
-    /// `position` as distance from the segment's first vertex.
-    fn along_segment(&self, position: f64) -> f64 {
-        if self.reversed {
-            self.length - position
-        } else {
-            position
-        }
-    }
-
-    /// Where the segment enters and leaves a circle near `circle`, shrunk by [`tolerance::COVERED`].
-    fn chord(&self, circle: Disc, near: &Near) -> Option<(f64, f64)> {
-        let to_centre = circle.centre + near.offset - self.start;
-        let (along, across) = (to_centre.dot(self.direction), to_centre.perp_dot(self.direction));
-        let radius = near.radius * (1.0 - tolerance::COVERED);
-        let half_squared = radius * radius - across * across;
-        (half_squared > 0.0).then(|| (along - half_squared.sqrt(), along + half_squared.sqrt()))
-    }
-
     /// The gap with its low end q₁ moved out of the circles that cover it, and the biting circle there; none where
     /// nothing is left of it.
     fn trimmed(mut self, front: &Front) -> Result<Option<(Self, Disc)>, MeshError> {
         while self.low <= self.high {
             let circle = self.circle_at(front, self.low)?;
             let seen = |near: &&Near| front.sees(near.id, circle.centre);
-            let near = front.covering(circle);
-            let exits = near.iter().filter(seen).filter_map(|near| {
-                let (_, exit) = self.chord(circle, near)?;
-                front.sees(near.id, self.at(exit.min(self.high))).then_some(exit)
-            });
-            let exit = exits.fold(self.low, f64::max);
+            let mut exit = self.low;
+            for near in front.covering(circle).iter().filter(seen) {
+                let left = self.exit(front, circle, near)?;
+                if front.sees(near.id, self.at(left.min(self.high))) {
+                    exit = exit.max(left);
+                }
+            }
             if exit == self.low {
                 return Ok(Some((self, circle)));
             }
@@ -157,25 +86,29 @@ impl Gap {
 
     /// Step 4: the next bite of an uncovered gap, as its position, circle and reason, given the circle at q₁.
     ///
-    /// Let q₂ be the next covered point of the segment. Where the circle at q₁ does not reach it, bite at q₁; else,
-    /// where the circle at q₂ does not reach q₁, bite at q₂; else bite at the middle of q₁ q₂. If the circle that
-    /// covers q₂ ends within the gap, the part behind it is queued as a gap of its own.
+    /// Let q₂ be the next covered point of the segment. Where a bite at q₁ does not reach it, bite at q₁; else, where a bite
+    /// at q₂ does not reach q₁, bite at q₂; else bite at the middle of q₁ q₂. If what covers q₂ ends within the gap,
+    /// the part behind it is queued as a gap of its own.
     fn next_bite(
         &self,
         front: &Front,
         at_low: Disc,
         gaps: &mut VecDeque<Gap>,
     ) -> Result<(f64, Disc, Reason), MeshError> {
-        let (far, behind) = self.far_side(front, at_low);
+        let (far, behind) = self.far_side(front, at_low)?;
         let progressive = Reason::Progressive { segment: self.segment };
-        if far - self.low > at_low.radius {
+        let eats = |biter: Disc, other: Disc| {
+            let radius = front.rule.of(biter, other).radius;
+            far - self.low <= radius
+        };
+        let at_far = self.circle_at(front, far)?;
+        if !eats(at_low, at_far) {
             return Ok((self.low, at_low, progressive));
         }
         if behind < self.high {
-            gaps.push_back(Self { low: behind, ..*self });
+            gaps.push_back(self.behind(behind));
         }
-        let at_far = self.circle_at(front, far)?;
-        if far - self.low > at_far.radius {
+        if !eats(at_far, at_low) {
             return Ok((far, at_far, progressive));
         }
         let middle = 0.5 * (self.low + far);
@@ -186,34 +119,20 @@ impl Gap {
         Ok((middle, self.circle_at(front, middle)?, reason))
     }
 
-    /// q₂, the next covered point behind the low end as far as the circle there can tell, and where the circle that
-    /// covers it is left again.
-    fn far_side(&self, front: &Front, at_low: Disc) -> (f64, f64) {
-        let near = front.meeting(at_low);
-        let chords = near.iter().filter_map(|near| {
-            let chord = self.chord(at_low, near)?;
-            front.sees(near.id, self.at(chord.0)).then_some(chord)
-        });
-        chords
-            .filter(|&(entry, _)| self.low <= entry && entry < self.high)
-            .fold((self.high, self.high), |nearest, chord| {
-                if chord.0 < nearest.0 { chord } else { nearest }
-            })
-    }
-
-    /// What a bite leaves of the gap, to be seen from the other end next.
-    fn without(self, position: f64, radius: f64) -> impl Iterator<Item = Self> {
-        let before = Self {
-            high: position - radius,
-            ..self
-        };
-        let after = Self {
-            low: position + radius,
-            ..self
-        };
-        [before, after]
-            .into_iter()
-            .filter(|part| part.low <= part.high)
-            .map(Self::turned)
+    /// q₂, the next covered point behind the low end as far as a bite there can tell, and where what covers it is left
+    /// again.
+    fn far_side(&self, front: &Front, at_low: Disc) -> Result<(f64, f64), MeshError> {
+        let mut nearest = (self.high, self.high);
+        let mut near = Vec::new();
+        front.near_bite(at_low, &mut near);
+        for near in &near {
+            if let Some((entry, exit)) = self.eaten(front, at_low, near)? {
+                let is_ahead = self.low <= entry && entry < self.high;
+                if is_ahead && entry < nearest.0 && front.sees(near.id, self.at(entry)) {
+                    nearest = (entry, exit);
+                }
+            }
+        }
+        Ok(nearest)
     }
 }

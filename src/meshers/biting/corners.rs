@@ -19,18 +19,21 @@
 //! two ends of a segment that their circles cover between them. Where those meet lower than (9), both are
 //! held to half of what is between them, so that step 4 puts a circle in the middle. With that the angle bound needs no
 //! c_b + t ≤ 1 any more.
+//! By the rule of the later point they cover a segment between them only where c_b f exceeds half its length in the middle.
+//! It is held down there: only beside cuts, where f ≤ lfs.
 
 use super::capped::{Cap, Capped};
-use super::fan::{Edge, Fan};
+use super::fan::{Edge, Fan, slope_beside};
 use super::{Biting, Corners, HeadOn};
 use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
 use crate::geometry::near::{least_meeting_height, meeting_height};
 use crate::geometry::segments::{Seen, SegmentIndex};
-use crate::geometry::tolerance::{NO_ANGLE, RIGHT_ANGLE_DEG};
+use crate::geometry::tolerance::{COVERED, NO_ANGLE, RIGHT_ANGLE_DEG};
 use crate::meshers::sizing::Sizing;
 use crate::meshers::{MeshError, Request};
-use crate::spacing::{FLAT_T, Spacing};
+use crate::spacing::{FLAT_T, Rule, Spacing};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// κ: circles beside a cut have this share of the width there.
 pub(super) const SHARE: f64 = 0.95;
@@ -77,6 +80,7 @@ struct Plan<'a> {
     domain: &'a Domain,
     sizing: Sizing<'a>,
     c_b: f64,
+    rule: Rule,
     /// With what s grows away from caps.
     t: f64,
     /// The fans of vertices to be cut off, by vertex, for distance 1.
@@ -109,7 +113,7 @@ impl Cuts {
         spacing: &'a dyn Spacing,
         request: &Request,
     ) -> Result<(Self, Capped<'a>), MeshError> {
-        let mut plan = Plan::new(biting.corners, domain, spacing, request)?;
+        let mut plan = Plan::new(biting, domain, spacing, request)?;
         loop {
             let capped = Capped::new(spacing, plan.c_b, plan.t, plan.caps());
             let sizing = Sizing::new(domain, &capped, request);
@@ -147,7 +151,7 @@ impl Cuts {
 
 impl<'a> Plan<'a> {
     fn new(
-        corners: Corners,
+        biting: &Biting,
         domain: &'a Domain,
         spacing: &'a dyn Spacing,
         request: &Request,
@@ -158,19 +162,20 @@ impl<'a> Plan<'a> {
             domain,
             sizing,
             c_b: request.c_b,
+            rule: biting.rule,
             t,
             fans: Vec::new(),
             distances: vec![0.0; domain.vertices().len()],
             parted: vec![false; domain.segments().len()],
         };
-        if corners == Corners::Bite {
+        if biting.corners == Corners::Bite {
             return Ok(plan);
         }
         let isolated = domain.isolated().iter().map(|&v| [domain.vertices()[v]; 2]);
         let features = SegmentIndex::new((0..domain.segments().len()).map(|s| domain.ends(s)).chain(isolated));
         for v in 0..domain.vertices().len() {
             if inside(domain, v).any(is_small) {
-                let fan = Fan::new(domain, v, t);
+                let fan = Fan::new(domain, v, t, biting.rule);
                 plan.distances[v] = plan.room(&features, v, &fan)?;
                 plan.fans.push((v, fan));
             }
@@ -213,7 +218,10 @@ impl<'a> Plan<'a> {
         for s in (0..self.parted.len()).filter(|&s| self.parted[s]) {
             let [a, b] = self.ends(s);
             let half = 0.5 * a.distance(b);
-            caps.extend([Cap::point(a, half), Cap::point(b, half)]);
+            match self.rule {
+                Rule::Earlier => caps.extend([Cap::point(a, half), Cap::point(b, half)]),
+                Rule::Later => caps.push(Cap::point(a.midpoint(b), half)),
+            }
         }
         caps
     }
@@ -233,7 +241,7 @@ impl<'a> Plan<'a> {
                     break;
                 }
                 let (other, far) = domain.away(wedge.to, v);
-                let (far, slope) = (far.min(length), SHARE * 2.0 * (0.5 * angle).sin());
+                let (far, slope) = (far.min(length), slope_beside(angle, self.rule));
                 if far > near {
                     caps.extend([one, other].map(|direction| Cap {
                         start: vertex + direction * near,
@@ -263,7 +271,8 @@ impl<'a> Plan<'a> {
             let mut fit = f64::INFINITY;
             for edge in &fan.edges {
                 for way in edge.ends {
-                    fit = fit.min(capped.at(vertex + way * distance)? / (edge.least_radius(self.t) * distance));
+                    fit = fit
+                        .min(capped.at(vertex + way * distance)? / (edge.least_radius(self.t, self.rule) * distance));
                 }
             }
             if fit < 1.0 {
@@ -278,22 +287,36 @@ impl<'a> Plan<'a> {
         Ok(is_settled)
     }
 
-    /// Marks segments that the circles of their two ends cover between them, meeting lower than (9); says whether there
-    /// were none.
+    /// Marks segments that the circles of their two ends cover between them, meeting low; says whether there were none.
     fn part(&mut self, capped: &Sizing) -> Result<bool, MeshError> {
-        let bound = least_meeting_height(self.t.min(1.0));
         let mut is_settled = true;
         for s in (0..self.parted.len()).filter(|&s| !self.parted[s]).collect::<Vec<_>>() {
-            let [a, b] = self.ends(s);
-            let radii = [capped.at(a)?, capped.at(b)?];
-            let between = a.distance(b);
-            let is_low = meeting_height(between, radii[0], radii[1]) < bound * radii[0].min(radii[1]);
-            if radii[0] + radii[1] > between && is_low {
+            if self.meet_low(self.ends(s), capped)? {
                 self.parted[s] = true;
                 is_settled = false;
             }
         }
         Ok(is_settled)
+    }
+
+    /// Whether two ends of a segment cover it between them and meet low: lower than (9) or, by the rule of the later point,
+    /// with a middle m that is eaten, but g(m) − t c / 2 ≤ c / √2, so that a point may be left in the circle over the segment,
+    /// which is c long.
+    fn meet_low(&self, [a, b]: [DVec2; 2], capped: &Sizing) -> Result<bool, MeshError> {
+        let between = a.distance(b);
+        Ok(match self.rule {
+            Rule::Earlier => {
+                let radii = [capped.at(a)?, capped.at(b)?];
+                let bound = least_meeting_height(self.t.min(1.0));
+                let is_low = meeting_height(between, radii[0], radii[1]) < bound * radii[0].min(radii[1]);
+                radii[0] + radii[1] > between && is_low
+            }
+            Rule::Later => {
+                let radius = capped.at(a.midpoint(b))?;
+                let is_eaten = radius * (1.0 - COVERED) > 0.5 * between;
+                is_eaten && radius <= between * (FRAC_1_SQRT_2 + 0.5 * self.t)
+            }
+        })
     }
 
     fn cuts(&self) -> Cuts {

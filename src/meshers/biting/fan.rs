@@ -10,6 +10,7 @@ use super::corners::SHARE;
 use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
 use crate::geometry::near::least_meeting_height;
+use crate::spacing::Rule;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
 /// Room for what f loses to rounding when two edges share an end.
@@ -21,6 +22,9 @@ const MOST_T: f64 = 0.25;
 
 /// The largest part of an angle of 90° or more.
 const WIDEST_PART: f64 = FRAC_PI_3;
+
+/// Most parts by which an angle is divided more than that.
+const MOST_PARTS: i32 = 16;
 
 /// Most rounds of dividing further where neighbours differ too much.
 const ROUNDS: usize = 64;
@@ -45,13 +49,39 @@ impl Edge {
 
     /// The smallest radius of circles at its ends: they meet at least as high above it as (9) says, and hold every point that
     /// sees it under more than 175° less its angle.
-    pub fn least_radius(&self, t: f64) -> f64 {
-        // Equal radii ρ at distance 2 meet at height √(ρ² − 1).
-        let height = least_meeting_height(t.min(1.0));
-        let by_height = 1.0 / (1.0 - height * height).sqrt();
+    ///
+    /// By the rule of the later point, what ends of radius r eat holds only the circles of r / (1 + t). Points outside of both
+    /// see the edge under φ at most, sin(φ/2) = half the edge over r / (1 + t), and make angles of at least 90° − φ/2
+    /// with it: not below asin((1 − t) / 2).
+    pub fn least_radius(&self, t: f64, rule: Rule) -> f64 {
         let by_angle = 1.0 / (0.5 * (175f64.to_radians() - self.angle)).sin();
-        0.5 * self.width() * by_height.max(by_angle)
+        let half = 0.5 * self.width();
+        match rule {
+            Rule::Earlier => {
+                // Equal radii ρ at distance 2 meet at height √(ρ² − 1).
+                let height = least_meeting_height(t.min(1.0));
+                let by_height = 1.0 / (1.0 - height * height).sqrt();
+                half * by_height.max(by_angle)
+            }
+            Rule::Later => {
+                let by_height = 1.0 / (1.0 - 0.25 * (1.0 - t) * (1.0 - t)).sqrt();
+                half * (1.0 + t) * by_height.max(by_angle)
+            }
+        }
     }
+
+    /// The largest radius that circles at its ends are given, beside segments at its angle: they do not hold each other, and by
+    /// the rule of the later point no point of one segment eats one of the other.
+    pub fn most_radius(&self, rule: Rule) -> f64 {
+        slope_beside(self.angle, rule)
+    }
+}
+
+/// How fast circles may grow along two segments that face each other at `angle`, by distance from their vertex: a share of the
+/// width there and, by the rule of the later point, no more than the distance to the other segment.
+pub(super) fn slope_beside(angle: f64, rule: Rule) -> f64 {
+    let width = SHARE * 2.0 * (0.5 * angle).sin();
+    rule.of(width, width.min(angle.sin()))
 }
 
 /// The cut edges of a vertex.
@@ -66,12 +96,12 @@ pub(super) struct Fan {
 
 impl Fan {
     /// Of vertex `v`, for a spacing that grows with `t`.
-    pub fn new(domain: &Domain, v: usize, t: f64) -> Self {
+    pub fn new(domain: &Domain, v: usize, t: f64, rule: Rule) -> Self {
         let mut fan = Self::default();
         let wedges = domain.wedges(v);
         let inside = wedges.iter().filter(|wedge| wedge.inside);
         let smallest = inside.map(|wedge| wedge.angle).fold(f64::INFINITY, f64::min);
-        for (wedge, parts) in wedges.iter().zip(divide(wedges, t)) {
+        for (wedge, parts) in wedges.iter().zip(divide(wedges, t, rule)) {
             fan.narrowed += usize::from(parts.iter().any(|part| *part < smallest * (1.0 - 1e-9)));
             let [from, to] = [wedge.from, wedge.to].map(|s| domain.away(s, v).0);
             let (mut start, mut turned) = (from, 0.0);
@@ -98,8 +128,8 @@ impl Fan {
 }
 
 /// The parts of each wedge around a vertex, counter-clockwise; none of those outside.
-fn divide(wedges: &[Wedge], t: f64) -> Vec<Vec<f64>> {
-    let sizes = sizes(wedges, GROWTH * t.min(MOST_T));
+fn divide(wedges: &[Wedge], t: f64, rule: Rule) -> Vec<Vec<f64>> {
+    let sizes = sizes(wedges, [GROWTH * t.min(MOST_T), t], rule);
     let whole = |size: &Size| size.total().round().max(1.0) as usize;
     let counts = wedges
         .iter()
@@ -115,7 +145,7 @@ fn divide(wedges: &[Wedge], t: f64) -> Vec<Vec<f64>> {
     };
     for _ in 0..ROUNDS {
         let parts: Vec<Vec<f64>> = all_parts(&counts);
-        match misfit(wedges, &parts, t) {
+        match misfit(wedges, &parts, t, rule) {
             Some(wedge) => counts[wedge] += 1,
             None => return parts,
         }
@@ -124,7 +154,7 @@ fn divide(wedges: &[Wedge], t: f64) -> Vec<Vec<f64>> {
 }
 
 /// A wedge with a part too wide for the one beside it.
-fn misfit(wedges: &[Wedge], parts: &[Vec<f64>], t: f64) -> Option<usize> {
+fn misfit(wedges: &[Wedge], parts: &[Vec<f64>], t: f64, rule: Rule) -> Option<usize> {
     let each = |k: usize| parts[k].iter().map(move |part| wedges[k].inside.then_some((k, *part)));
     // Where a wedge lies outside, the parts before and after it share no end.
     let outside = |k: usize| (!wedges[k].inside).then_some(None);
@@ -132,17 +162,39 @@ fn misfit(wedges: &[Wedge], parts: &[Vec<f64>], t: f64) -> Option<usize> {
     (0..all.len()).find_map(|k| {
         let (one, other) = (all[k]?, all[(k + 1) % all.len()]?);
         let (narrow, wide) = if one.1 < other.1 { (one, other) } else { (other, one) };
-        (!fit(narrow.1, wide.1, t)).then_some(wide.0)
+        (!fit(narrow.1, wide.1, t, rule)).then_some(wide.0)
     })
 }
 
 /// Whether edges of these angles can share an end: its circle must not hold the ends of the one and suffice for the other.
-fn fit(narrow: f64, wide: f64, t: f64) -> bool {
-    let edge = |angle| Edge {
+fn fit(narrow: f64, wide: f64, t: f64, rule: Rule) -> bool {
+    SHARE * edge(narrow).width() >= ROOM * edge(wide).least_radius(t, rule)
+}
+
+fn edge(angle: f64) -> Edge {
+    Edge {
         ends: [DVec2::X; 2],
         angle,
+    }
+}
+
+/// The fewest equal parts of an angle that edges fit for, where it need not be divided for its neighbours.
+fn fewest_parts(angle: f64, t: f64, rule: Rule) -> f64 {
+    let is_flat = angle >= FRAC_PI_2;
+    let fits = |count: f64| {
+        let edge = edge(angle / count);
+        let most = if is_flat || count > 1.0 {
+            SHARE * edge.width()
+        } else {
+            edge.most_radius(rule)
+        };
+        most >= ROOM * edge.least_radius(t, rule)
     };
-    SHARE * edge(narrow).width() >= ROOM * edge(wide).least_radius(t)
+    let least = if is_flat { (angle / WIDEST_PART).ceil() } else { 1.0 };
+    (0..MOST_PARTS)
+        .map(|more| least + f64::from(more))
+        .find(|count| fits(*count))
+        .unwrap_or(least)
 }
 
 /// The size of parts within an angle: the least of three lines.
@@ -156,11 +208,10 @@ struct Size {
 
 /// What each wedge may have for parts, growing away from the narrow ones. Growth goes on through wedges outside, since
 /// circles grow no faster across them.
-fn sizes(wedges: &[Wedge], growth: f64) -> Vec<Size> {
+fn sizes(wedges: &[Wedge], [growth, t]: [f64; 2], rule: Rule) -> Vec<Size> {
     let most = |wedge: &Wedge| match wedge.angle {
         _ if !wedge.inside => f64::INFINITY,
-        angle if angle < FRAC_PI_2 => angle,
-        angle => angle / (angle / WIDEST_PART).ceil(),
+        angle => angle / fewest_parts(angle, t, rule),
     };
     let size = |wedge: &Wedge| Size {
         angle: wedge.angle,
@@ -237,7 +288,7 @@ mod tests {
         if left > 0.0 {
             wedges.push(wedge(left, false));
         }
-        let mut parts = divide(&wedges, 0.25);
+        let mut parts = divide(&wedges, 0.25, Rule::Earlier);
         parts.truncate(degrees.len());
         parts
     }
@@ -270,7 +321,10 @@ mod tests {
             let pairs = all.windows(2).map(|pair| [pair[0], pair[1]]);
             let last = (degrees.iter().sum::<f64>() > 359.0).then(|| [all[all.len() - 1], all[0]]);
             for [one, other] in pairs.chain(last) {
-                assert!(fit(one.min(other), one.max(other), 0.25), "{degrees:?}: {one} {other}");
+                assert!(
+                    fit(one.min(other), one.max(other), 0.25, Rule::Earlier),
+                    "{degrees:?}: {one} {other}"
+                );
             }
             assert!(all.len() < 80, "{degrees:?}: {}", all.len());
         }
@@ -294,6 +348,7 @@ mod tests {
                 wedge(294.0, false),
             ],
             0.25,
+            Rule::Earlier,
         );
         assert!(parts[0].len() == 1 && parts[1].is_empty() && parts[3].is_empty());
         assert!(

@@ -11,20 +11,24 @@
 //! # Cost
 //! O(1) a bite, however graded the spacing is; nothing is scanned globally or rebuilt.
 
+use super::Biting;
 use super::corners::Cuts;
 use super::notches::Notches;
-use super::order::{Order, Queue, RANK_STEP, Ticket};
+use super::order::{Queue, RANK_STEP, Ticket};
+use super::rule::Meeting;
 use crate::domain::Domain;
-use crate::geometry::near::{Disc, DiscGrid, Near, circle_intersections};
+use crate::geometry::near::{Disc, DiscGrid, Near};
 use crate::geometry::{DVec2, tolerance};
 use crate::meshers::sizing::Sizing;
 use crate::meshers::{Bite, MeshError, Monitor, Reason, Request, Waiting};
-use crate::spacing::Spacing;
+use crate::spacing::{Rule, Spacing};
 
 /// A point where the arcs of two biting circles meet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrontVertex {
     pub point: DVec2,
+    /// g there by the rule of the later point, under which all that are nearer have eaten it.
+    pub reach: Option<f64>,
     /// The two circles.
     pub discs: [u32; 2],
     /// Their centres, relative to the point.
@@ -53,6 +57,7 @@ fn cosine(u: DVec2, v: DVec2) -> f64 {
 #[derive(Clone, Copy, Debug)]
 struct Slot {
     point: DVec2,
+    reach: Option<f64>,
     discs: [u32; 2],
     /// The next vertex under each of the two circles.
     next: [u32; 2],
@@ -70,8 +75,9 @@ pub(super) struct Front<'a> {
     /// What circles cannot see across.
     notches: &'a Notches,
     /// For each circle, whether it may hold points that its centre cannot see.
-    beside_notch: Vec<bool>,
-    radii: Sizing<'a>,
+    pub beside_notch: Vec<bool>,
+    pub radii: Sizing<'a>,
+    pub rule: Rule,
     /// The biting circles, in the order of bites.
     pub bitten: DiscGrid,
     /// How many of them are centred on the input boundary; they come first.
@@ -97,7 +103,7 @@ impl<'a> Front<'a> {
         cuts: &'a Cuts,
         notches: &'a Notches,
         spacing: &'a dyn Spacing,
-        order: Order,
+        biting: &Biting,
         request: &Request,
     ) -> Self {
         let radii = Sizing::new(domain, spacing, request);
@@ -107,13 +113,14 @@ impl<'a> Front<'a> {
             notches,
             beside_notch: Vec::new(),
             radii,
+            rule: biting.rule,
             bitten: DiscGrid::new(radii.t()),
             boundary_count: u32::MAX,
             first_vertex: Vec::new(),
             slots: Vec::new(),
             free_slots: Vec::new(),
             serials: 0,
-            queue: Queue::new(order, request.seed),
+            queue: Queue::new(biting.order, request.seed),
             near: Vec::new(),
             parents: [0; 2],
             monitor: Monitor::new(&request.budget),
@@ -140,21 +147,6 @@ impl<'a> Front<'a> {
         input.iter().copied().chain(others.map(|disc| disc.centre)).collect()
     }
 
-    /// The bitten discs whose interior meets `disc`.
-    pub fn meeting(&self, disc: Disc) -> Vec<Near> {
-        let mut near = Vec::new();
-        self.bitten.meeting(disc.centre, disc.radius, &mut near);
-        near
-    }
-
-    /// The bitten discs that cover the centre of `disc`, seen or not.
-    pub fn covering(&self, disc: Disc) -> Vec<Near> {
-        let mut near = Vec::new();
-        self.bitten
-            .covering(disc.centre, disc.radius, tolerance::COVERED, &mut near);
-        near
-    }
-
     /// Whether no notch stands between the centre of a bitten disc and a point that it holds.
     pub fn sees(&self, id: u32, point: DVec2) -> bool {
         !self.beside_notch[id as usize] || !self.notches.part(self.bitten.disc(id).centre, point)
@@ -166,7 +158,7 @@ impl<'a> Front<'a> {
         for id in 0..self.boundary_count {
             let disc = self.bitten.disc(id);
             let mut near = std::mem::take(&mut self.near);
-            self.bitten.meeting(disc.centre, disc.radius, &mut near);
+            self.near_bite(disc, &mut near);
             near.retain(|other| other.id != id);
             let result = self.add_vertices(disc, id, &near, |other| other < id);
             self.near = near;
@@ -197,7 +189,7 @@ impl<'a> Front<'a> {
             self.radii.agree([x, parent.centre], [disc.radius, parent.radius])?;
         }
         let mut near = std::mem::take(&mut self.near);
-        self.bitten.meeting(disc.centre, disc.radius, &mut near);
+        self.near_bite(disc, &mut near);
         let id = self.insert(disc, Reason::FrontVertex)?;
         self.remove_vertices(disc, id, &near);
         let result = self.add_vertices(disc, id, &near, |_| true);
@@ -211,14 +203,13 @@ impl<'a> Front<'a> {
             log.push(Bite::new(disc.centre, disc.radius, reason));
         }
         self.first_vertex.push(NONE);
-        self.beside_notch.push(self.notches.are_near(disc));
+        self.beside_notch.push(self.notches.are_near(self.around_bite(disc)));
         Ok(self.bitten.insert(disc))
     }
 
     /// Removes the front vertices inside `disc`. Both circles of such a vertex meet `disc`, so both are in `near`: the
     /// vertex leaves one list at the first visit and is freed at the second.
     fn remove_vertices(&mut self, disc: Disc, id: u32, near: &[Near]) {
-        let inside = (disc.radius * (1.0 - tolerance::COVERED)).powi(2);
         for other in near {
             let mut before = None;
             let mut index = self.first_vertex[other.id as usize];
@@ -226,6 +217,7 @@ impl<'a> Front<'a> {
                 let slot = self.slots[index as usize];
                 let side = usize::from(slot.discs[1] == other.id);
                 let next = slot.next[side];
+                let inside = (slot.reach.unwrap_or(disc.radius) * (1.0 - tolerance::COVERED)).powi(2);
                 if slot.point.distance_squared(disc.centre) < inside && self.sees(id, slot.point) {
                     if slot.serial == NONE {
                         self.free_slots.push(index);
@@ -260,10 +252,10 @@ impl<'a> Front<'a> {
             if !wanted(other.id) {
                 continue;
             }
-            for relative in circle_intersections(disc.radius, other) {
+            for Meeting { relative, reach } in self.meetings(disc, near, index)? {
                 let point = disc.centre + relative;
-                if self.is_covered(relative, point, near, index) || !self.sees(id, point) || !self.sees(other.id, point)
-                {
+                let is_covered = self.is_covered(relative, point, reach, near, index);
+                if is_covered || !self.sees(id, point) || !self.sees(other.id, point) {
                     continue;
                 }
                 if near_boundary && (!self.domain.contains(point) || self.cuts.hold(point)) {
@@ -271,6 +263,7 @@ impl<'a> Front<'a> {
                 }
                 let vertex = FrontVertex {
                     point,
+                    reach,
                     discs: [id, other.id],
                     centres: [-relative, other.offset - relative],
                 };
@@ -287,6 +280,7 @@ impl<'a> Front<'a> {
         let next = vertex.discs.map(|disc| self.first_vertex[disc as usize]);
         let slot = Slot {
             point: vertex.point,
+            reach: vertex.reach,
             discs: vertex.discs,
             next,
             serial,
@@ -320,11 +314,11 @@ impl<'a> Front<'a> {
         Ok(())
     }
 
-    /// Whether a disc of `near` other than the one at `except` covers the point. Discs count as a little smaller than they
+    /// Whether a disc of `near` other than the one at `except` covers the point. Reaches count as a little smaller than they
     /// are, so that a vertex on several circles at once is kept.
-    fn is_covered(&self, relative: DVec2, point: DVec2, near: &[Near], except: usize) -> bool {
+    fn is_covered(&self, relative: DVec2, point: DVec2, reach: Option<f64>, near: &[Near], except: usize) -> bool {
         near.iter().enumerate().any(|(index, other)| {
-            let shrunk = other.radius * (1.0 - tolerance::COVERED);
+            let shrunk = reach.unwrap_or(other.radius) * (1.0 - tolerance::COVERED);
             index != except && relative.distance_squared(other.offset) < shrunk * shrunk && self.sees(other.id, point)
         })
     }

@@ -25,9 +25,13 @@
 //! angle of the others is below the smallest input angle there (`corner-angles`); what is about f holds where
 //! nothing was cut or held down.
 //!
+//! With `rule=later` two points keep the distance that the later of them asks for, and the smallest angle is at least
+//! asin((1 − t) / 2): [`rule`] has the theorem, its proof and the other bounds, which the certificate then holds.
+//!
 //! # Cost
 //! O(1) a bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
-//! O(n log n) for the triangulation.
+//! O(n log n) for the triangulation. By the rule of the later point some ten evaluations of f more a bite, for the roots that
+//! its front vertices are.
 //!
 //! # Deviations from the paper (and why)
 //! * The paper does not say which front vertex is bitten next: [`Order`] is a parameter. Its default, the largest spacing
@@ -57,11 +61,14 @@ mod capped;
 mod corners;
 mod fan;
 mod front;
+mod gap;
 mod interior;
 mod notches;
 mod order;
+mod rule;
 #[cfg(test)]
 mod tests;
+mod watch;
 
 pub use order::Order;
 
@@ -70,7 +77,7 @@ use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::mesh::{Mesh, Piece};
-use crate::spacing::Spacing;
+use crate::spacing::{Rule, Spacing};
 use corners::Cuts;
 use notches::Notches;
 use serde::{Deserialize, Serialize};
@@ -102,6 +109,8 @@ pub enum HeadOn {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Biting {
+    /// Who bites whom. The default is the paper's.
+    pub rule: Rule,
     /// The order of bites. The paper leaves it open; the default is what `sweep` found best.
     pub order: Order,
     /// What is done about input angles under 90°, which the paper excludes.
@@ -117,6 +126,12 @@ pub(super) const ENTRY: Entry = Entry {
     name: "biting",
     summary: "advancing front that packs circles (Li, Teng, Üngör)",
     parameters: &[
+        Parameter {
+            name: "rule",
+            values: "earlier, later",
+            default: "earlier",
+            help: "whose spacing sets the distance that two points keep: that of the one bitten first (§5.1), or of the other",
+        },
         Parameter {
             name: "order",
             values: "fifo, lifo, sharpest, flattest, equilateral, smallest, largest, random",
@@ -195,7 +210,7 @@ impl Biting {
             Corners::Cut => Notches::new(domain),
         };
         let spacing: &dyn Spacing = if capped.is_empty() { spacing } else { &capped };
-        let mut front = front::Front::new(domain, &cuts, &notches, spacing, self.order, request);
+        let mut front = front::Front::new(domain, &cuts, &notches, spacing, self, request);
         front.log = trace.bites.take();
         trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
         let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;

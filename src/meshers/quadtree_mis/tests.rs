@@ -9,7 +9,7 @@ use crate::geometry::tolerance::COVERED;
 use crate::meshers::Budget;
 use crate::meshers::Parameters;
 use crate::quality::{Bounds, Certificate, judge};
-use crate::spacing::{Options, build};
+use crate::spacing::{Options, Rule, build};
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -63,6 +63,7 @@ fn certify(mesher: &QuadtreeMis, domain: &Domain, spacing: &dyn Spacing, lfs_cap
     let bounds = Bounds {
         spacing,
         c_b: REQUEST.c_b,
+        rule: Rule::Earlier,
         lfs_cap,
         integral: None,
         integral_error: 0.0,

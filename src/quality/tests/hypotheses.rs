@@ -5,6 +5,7 @@ use super::*;
 const RIGHT: Hypotheses = Hypotheses {
     t: 0.3,
     c_b: 0.5,
+    rule: Rule::Earlier,
     lfs_cap: true,
     smallest_segment_angle_deg: 90.0,
     low_head_on: 0,
@@ -155,7 +156,7 @@ fn hypotheses_are_those_of_domain_and_spacing() {
 
 #[test]
 fn the_angle_bound_is_that_of_theorem_6_8() {
-    let bounds = [0.0, 0.25, 0.5, 0.75].map(min_angle_bound_deg);
+    let bounds = [0.0, 0.25, 0.5, 0.75].map(|t| min_angle_bound_deg(Rule::Earlier, t));
     let expected = [30.0, 14.477_512_185_929_925, 0.0, 0.0];
     for (found, expected) in bounds.into_iter().zip(expected) {
         assert!((found - expected).abs() < 1e-12, "{found} {expected}");

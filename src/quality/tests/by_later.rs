@@ -1,0 +1,123 @@
+//! The bounds by the rule of the later point: coverage against sampling, and every bound by hand.
+
+use super::*;
+
+fn by_later(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
+    Bounds {
+        rule: Rule::Later,
+        ..bounds(spacing, c_b)
+    }
+}
+
+fn coverage(domain: &Domain, mesh: &Mesh, bounds: &Bounds) -> Check {
+    judge(domain, mesh, Some(bounds)).1.check("coverage").unwrap().clone()
+}
+
+#[test]
+fn the_middles_of_sides_are_the_last_covered() {
+    // They are ½ from two corners and from the middle.
+    let (square, fan) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
+    for (c_b, holds) in [(0.5, true), (0.51, true), (0.499, false)] {
+        let check = coverage(&square, &fan, &by_later(&UNIFORM, c_b));
+        assert_eq!((check.holds, check.broken > 0, check.applies), (holds, !holds, true));
+        assert!((check.worst.unwrap() - 0.5 / c_b).abs() < 1e-9 && check.bound == Some(1.0));
+    }
+}
+
+#[test]
+fn what_the_point_itself_asks_for_decides() {
+    // g is 0.3 in the middle of the left side, which is ½ from three vertices; the circle of one of them, 0.6 large, holds it.
+    let spacing = Linear {
+        base: 0.3,
+        slope: p(0.6, 0.0),
+    };
+    let (square, fan) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
+    let (earlier, later) = (bounds(&spacing, 1.0), by_later(&spacing, 1.0));
+    assert!(coverage(&square, &fan, &earlier).holds && !coverage(&square, &fan, &later).holds);
+    let check = coverage(&square, &fan, &later);
+    assert!((check.worst.unwrap() - 5.0 / 3.0).abs() < 1e-9, "{check:?}");
+    assert_eq!(check.at, Some([0.0, 0.5]));
+}
+
+#[test]
+fn triangles_that_are_not_the_domain_cover_nothing() {
+    let mut half = fan(p(0.5, 0.5));
+    half.triangles.truncate(2);
+    assert!(!coverage(&domain(&SQUARE, &[]), &half, &by_later(&UNIFORM, 1.0)).holds);
+}
+
+#[test]
+fn every_bound_by_hand_for_t_a_quarter_and_c_b_a_half() {
+    let spacing = Linear {
+        base: 1.0,
+        slope: p(0.0, 0.5),
+    };
+    let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&by_later(&spacing, 0.5)));
+    for (claim, expected) in [
+        ("packing-disjoint", 1.0),
+        ("coverage", 1.0),
+        ("min-angle", 0.375f64.asin().to_degrees()),
+        ("min-angle-beyond-corners", 0.375f64.asin().to_degrees()),
+        ("nn-vertex-lower", 0.4),
+        ("nn-vertex-upper", 4.0 / 3.0),
+        ("nn-point-lower", 2.0 / 9.0),
+        ("nn-point-upper", 13.0 / 6.0),
+    ] {
+        let check = certificate.check(claim).unwrap();
+        assert!((check.bound.unwrap() - expected).abs() < 1e-12, "{claim}: {check:?}");
+    }
+    assert!(!certificate.check("boundary-height").unwrap().applies);
+}
+
+#[test]
+fn any_t_under_1_is_enough_and_circles_may_meet_head_on() {
+    let hypotheses = |t: f64| Hypotheses {
+        t,
+        c_b: 1.0,
+        rule: Rule::Later,
+        lfs_cap: true,
+        smallest_segment_angle_deg: 90.0,
+        low_head_on: 3,
+        single_corners: true,
+    };
+    assert!(hypotheses(0.99).imply("min-angle") && !hypotheses(1.0).imply("min-angle"));
+    assert!(hypotheses(0.5).imply("min-angle-beyond-corners") && !hypotheses(0.6).imply("min-angle-beyond-corners"));
+    let acute = Hypotheses {
+        smallest_segment_angle_deg: 80.0,
+        ..hypotheses(0.25)
+    };
+    assert!(!acute.imply("min-angle") && acute.imply("coverage") && acute.imply("min-angle-beyond-corners"));
+    let earlier = Hypotheses {
+        rule: Rule::Earlier,
+        ..hypotheses(0.25)
+    };
+    assert!(!earlier.imply("min-angle") && earlier.imply("boundary-height"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+    #[test]
+    fn coverage_agrees_with_dense_sampling(
+        points in prop::collection::vec((0.01f64..0.99, 0.01f64..0.99), 1..25),
+        base in 0.1f64..0.6, slope in (-0.15f64..0.15, -0.15f64..0.15),
+    ) {
+        let spacing = Linear { base: base + 0.4, slope: p(slope.0, slope.1) };
+        let square = domain(&SQUARE, &[]);
+        let all: Vec<DVec2> = SQUARE.into_iter().chain(points.iter().map(|&(x, y)| p(x, y))).collect();
+        let pieces = (0..4u32).map(|k| Piece { a: k, b: (k + 1) % 4, segment: k }).collect();
+        let mesh = triangulate(&square, all.clone(), pieces).unwrap();
+        let check = coverage(&square, &mesh, &by_later(&spacing, 0.5));
+        let ratio = |x: DVec2| {
+            let nearest = all.iter().map(|y| y.distance(x)).fold(f64::INFINITY, f64::min);
+            nearest / (0.5 * spacing.at(x))
+        };
+        let samples = (0..=100).flat_map(|i| (0..=100).map(move |j| p(f64::from(i), f64::from(j)) / 100.0));
+        let sampled = samples.map(ratio).fold(0.0, f64::max);
+        prop_assert!(check.holds || check.worst.unwrap() > 1.0);
+        prop_assert!(!check.holds || sampled <= 1.0 + 1e-8, "sampled {sampled}, {check:?}");
+        // A step of the grid changes the ratio by little.
+        prop_assert!(check.holds || sampled > 0.85, "sampled {sampled}, {check:?}");
+        let [x, y] = check.at.unwrap();
+        prop_assert!((ratio(p(x, y)) - check.worst.unwrap()).abs() < 1e-9);
+    }
+}
