@@ -10,17 +10,18 @@ use crate::experiment::measure::{self, Run};
 use crate::experiment::prepare::{Prepared, Store};
 use crate::experiment::record::Cell;
 use crate::experiment::runner;
-use crate::fem::{self, Problem};
+use crate::fem::{self, PROBLEMS, Problem};
 use crate::mesh::files;
 use crate::meshers::{Budget, MeshError, Request};
+use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
 pub struct Arguments {
     /// A gallery name (`biting list`) or a file (.poly, .geojson)
     domain: String,
-    /// What is solved: smooth, layer, peak, boundary-layer, corner (for l-shape)
-    #[arg(long, default_value = "layer")]
+    /// The Poisson problem whose solution is followed; corner is for l-shape
+    #[arg(long, default_value = "layer", value_parser = problems())]
     problem: String,
     /// Error of linear interpolation that is allowed, in the unit of u
     #[arg(long, value_parser = positive, default_value = "1e-3")]
@@ -85,6 +86,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
         output::write_file(path, &text)?;
     }
     output::verdict(&report.certificate)
+}
+
+/// The names there are.
+fn problems() -> PossibleValuesParser {
+    PossibleValuesParser::new(PROBLEMS.map(|problem| problem.name))
 }
 
 impl Arguments {

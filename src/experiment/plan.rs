@@ -11,6 +11,7 @@
 //! certificate_holds = true
 //! measured_share = 0.8
 //! measured_per_domain = { lakes = 10 }
+//! adapted_slope = { most = -0.9, least = -1.2 }   # of the L2 error of adapted meshes against vertices, in logarithms
 //!
 //! [[group]]                      # every combination of the lists is a cell
 //! name = "grid"

@@ -50,7 +50,7 @@ fn a_mesh_is_adapted_and_its_field_is_the_spacing_of_the_next() {
 fn what_cannot_be_adapted_is_bad_input() {
     let folder = folder();
     for (option, value, told) in [
-        ("--problem", "wave", "problem `wave` is unknown"),
+        ("--problem", "wave", "possible values: smooth, layer"),
         ("--eps=-1", "--sample", "-1"),
         ("--rounds", "0", "0 is not in"),
         ("--out", "mesh.xyz", "no format has this ending"),
