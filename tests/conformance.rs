@@ -3,7 +3,7 @@
 
 use biting::domain::{Domain, Fill, Pslg, gallery};
 use biting::geometry::DVec2;
-use biting::mesh::Mesh;
+use biting::mesh::{Mesh, files};
 use biting::meshers::{Budget, Entry, MESHERS, MeshError, Mesher, Parameters, Request, Trace, parameter_value};
 use biting::quality::{Bounds, judge};
 use biting::spacing::{self, Options, Prepared, Spacing};
@@ -164,6 +164,47 @@ fn every_mesher_on_every_small_domain() {
     for method in &methods() {
         for pslg in small_gallery() {
             for spec in ["lfs", "expr: 0.05 + 0.2*(x*x + y*y)"] {
+                certified(method, &pslg, spec, spec);
+            }
+        }
+    }
+}
+
+/// A SPEC of each of `spacing::KINDS`, in that order; the files are meshes of the domain.
+fn kinds(field: &str, mesh: &str) -> Vec<String> {
+    let u = "tanh((x+y-1)/0.2)";
+    vec![
+        "lfs".into(),
+        "uniform:0.1".into(),
+        "expr:0.05+0.1*x^2".into(),
+        format!("hessian:{u};eps=0.02"),
+        format!("field:{field};eps=0.02;min=0.02"),
+        format!("el:{mesh}"),
+        format!("nn:{mesh};factor=0.8"),
+        format!("gns:hessian:{u};eps=0.02;max=0.3"),
+        format!("min(expr:0.1+x, hessian:{u};eps=0.05, nn:{mesh})"),
+    ]
+}
+
+#[test]
+fn every_kind_of_spacing_by_every_mesher() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for pslg in small_gallery()
+        .into_iter()
+        .filter(|pslg| ["unit-square", "l-shape"].contains(&pslg.name.as_str()))
+    {
+        let first = certified(&methods()[0], &pslg, "uniform:0.15", "the mesh to begin with").expect("a mesh");
+        let values: Vec<f64> = first.points.iter().map(|x| ((x.x + x.y - 1.0) / 0.2).tanh()).collect();
+        let file = |name: &str| folder.path().join(format!("{}-{name}", pslg.name));
+        let (field, mesh) = (file("u.node"), file("mesh.vtu"));
+        files::write_with_values(&first, &values, &field).expect("written");
+        files::write(&first, &mesh).expect("written");
+        let specs = kinds(&field.display().to_string(), &mesh.display().to_string());
+        assert_eq!(specs.len(), spacing::KINDS.len());
+        for (spec, kind) in specs.iter().zip(spacing::KINDS) {
+            let start = kind.split([':', '(']).next().unwrap_or_default();
+            assert!(spec.starts_with(start), "{spec} is no {kind}");
+            for method in &methods() {
                 certified(method, &pslg, spec, spec);
             }
         }

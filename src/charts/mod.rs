@@ -2,6 +2,7 @@
 //!
 //! Every figure is written twice, as SVG and as PNG, from the same drawing code.
 
+mod adapt;
 mod angles;
 mod bitmap;
 mod bounds;
@@ -24,6 +25,7 @@ mod size;
 mod style;
 mod time;
 
+pub use adapt::adaptation;
 pub use angles::smallest_angle;
 pub use bounds::{BoundFigure, bound};
 pub use canvas::ChartError;

@@ -14,7 +14,7 @@ pub const DEFAULT_C_B: &str = "0.75";
 
 #[derive(clap::Args)]
 pub struct Asked {
-    /// Control spacing f: lfs, uniform:H, expr:EXPRESSION in x and y, min(A, B)
+    /// Control spacing f: lfs, uniform:H, expr:EXPRESSION in x and y, min(A, B); `biting list` shows all
     #[arg(long, value_name = "SPEC", default_value = "lfs")]
     spacing: String,
     /// Edge length wanted, an expression in x and y, in place of --spacing (f = size / c_b)

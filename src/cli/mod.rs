@@ -6,6 +6,7 @@
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
+mod adapt;
 mod asked;
 mod battery;
 mod check;
@@ -37,6 +38,8 @@ enum Verb {
     Sweep(sweep::Arguments),
     /// Make one mesh
     Mesh(Box<mesh::Arguments>),
+    /// Adapt a mesh to the solution of a problem, round by round
+    Adapt(Box<adapt::Arguments>),
     /// Judge a mesh from anywhere
     Check(check::Arguments),
     /// Set our meshers beside those outside this crate
@@ -59,6 +62,7 @@ pub fn main() -> ExitCode {
     let outcome = match Arguments::parse().verb {
         Verb::Sweep(arguments) => sweep::run(&arguments),
         Verb::Mesh(arguments) => mesh::run(&arguments),
+        Verb::Adapt(arguments) => adapt::run(&arguments),
         Verb::Check(arguments) => check::run(&arguments),
         Verb::Compare(arguments) => compare::run(&arguments),
         Verb::Figures(arguments) => figures::run(&arguments),

@@ -1,6 +1,7 @@
 //! What an experiment expected, held against its rows.
 
-use super::plan::Expectations;
+use super::convergence::{Convergence, convergence};
+use super::plan::{Expectations, SlopeRange};
 use super::record::{Outcome, Row};
 use super::summary::{self, Setting};
 use serde::{Deserialize, Serialize};
@@ -44,6 +45,9 @@ pub fn findings(expect: &Expectations, rows: &[Row]) -> Vec<Finding> {
     if let Some(most) = expect.unmeshed_share {
         findings.extend(unmeshed(rows, most));
     }
+    if let Some(range) = expect.adapted_slope {
+        findings.extend(adapted_slopes(rows, range));
+    }
     for (domain, &least) in &expect.measured_per_domain {
         let measured = count_measured(rows.iter().filter(|row| &row.cell.domain == domain));
         findings.push(Finding {
@@ -75,6 +79,23 @@ fn unmeshed(rows: &[Row], most: f64) -> Vec<Finding> {
         }
     };
     meshers.into_iter().map(one).collect()
+}
+
+/// One finding for each problem: how fast the L2 error falls with the vertices of adapted meshes.
+fn adapted_slopes(rows: &[Row], range: SlopeRange) -> Vec<Finding> {
+    let SlopeRange { least, most } = range;
+    let all = convergence(rows);
+    let one = |[line, _]: &[Convergence; 2]| Finding {
+        expected: format!(
+            "the L2 error of adapted meshes falls with a slope from {most} to {least} for {}",
+            line.title
+        ),
+        found: line
+            .slope()
+            .map_or_else(|| "no slope".into(), |slope| format!("{slope:.3}")),
+        holds: line.slope().is_some_and(|slope| (least..=most).contains(&slope)),
+    };
+    all.iter().map(one).collect()
 }
 
 /// Whether anything was measured at all.

@@ -117,6 +117,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
         outside: run.outside.clone(),
         poisson,
         poisson_failed,
+        rounds: prepared.rounds.to_vec(),
         counts: run.counts.clone(),
         certificate,
         provenance: provenance.clone(),

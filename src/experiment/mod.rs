@@ -3,9 +3,11 @@
 //! [`plan`] reads an experiment's cells, [`work`] gathers those with one mesh, [`runner`] runs them by [`measure`] on what
 //! [`prepare`] made, [`journal`] keeps the rows, [`expect`] holds them against what was expected.
 
+pub mod adapt;
 pub mod battery;
 pub mod claims;
 pub mod contest;
+pub mod convergence;
 mod ending;
 pub mod expect;
 pub mod frontier;

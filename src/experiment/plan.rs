@@ -11,6 +11,7 @@
 //! certificate_holds = true
 //! measured_share = 0.8
 //! measured_per_domain = { lakes = 10 }
+//! adapted_slope = { most = -0.9, least = -1.2 }   # of the L2 error of adapted meshes against vertices, in logarithms
 //!
 //! [[group]]                      # every combination of the lists is a cell
 //! name = "grid"
@@ -27,6 +28,7 @@
 //! equal_triangles = 20_000       # or a list; without it c_b stays as asked, with it c_b is scaled until a mesh has so many
 //! threads = [1]                  # default
 //! poisson = "smooth"             # without it nothing is solved
+//! adapt = [{ eps = 1e-3, rounds = 6 }]   # without it the spacing is as it says; with it adapted to u of that problem first
 //! timed = false                  # default; a timed cell runs alone, `repeats` times
 //! repeats = 3                    # default
 //! quick = { t = [0.25] }         # lists that replace those above under --quick; without it the group is left out
@@ -135,6 +137,8 @@ pub struct Expectations {
     pub unmeshed_share: Option<f64>,
     /// The least number of measured cells of some domains.
     pub measured_per_domain: BTreeMap<String, usize>,
+    /// Between what the slope of log₁₀ L2 error against log₁₀ vertices must lie, for the adapted meshes of each problem.
+    pub adapted_slope: Option<SlopeRange>,
     /// Of a battery: the most cases that may panic, or end their process.
     pub panicked: Option<u64>,
     /// Of a battery: the most cases that may hang.
@@ -145,6 +149,16 @@ pub struct Expectations {
     pub declined_share: Option<f64>,
     /// Of a battery: the most families that may be skipped since their files are not there.
     pub skipped_families: Option<u64>,
+}
+
+/// Between what a slope must lie.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SlopeRange {
+    /// No steeper downwards than this.
+    pub least: f64,
+    /// At least as steep downwards as this.
+    pub most: f64,
 }
 
 /// One cell of a plan, before anything is known of it.
@@ -251,6 +265,7 @@ impl Plan {
         self.name.push_str("-quick");
         self.expect.measured_per_domain.clear();
         self.expect.declined_share = None;
+        self.expect.adapted_slope = None;
         self.groups = self.groups.into_iter().filter_map(Group::into_quick).collect();
         self.batteries = self.batteries.into_iter().filter_map(Battery::into_quick).collect();
         self

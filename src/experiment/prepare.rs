@@ -1,5 +1,6 @@
 //! What cells share: domain, spacing, limited spacing, and their integrals, each made once.
 
+use super::adapt::{self, Round};
 use super::record::Cell;
 use super::work::Outlook;
 use crate::domain::{self, Domain, DomainError, RepairReport};
@@ -26,6 +27,14 @@ pub enum PrepareError {
         /// What is wrong with it.
         cause: SpacingError,
     },
+    /// A round of adaptation ended without a spacing.
+    #[error("on {domain}: {reason}")]
+    Adaptation {
+        /// Where.
+        domain: String,
+        /// The round, and what ended it.
+        reason: String,
+    },
 }
 
 /// A domain with the integral of its local feature size.
@@ -46,6 +55,7 @@ struct Base {
     lfs_cap: bool,
     spacing: Arc<dyn Spacing>,
     integral: Integral,
+    rounds: Arc<[Round]>,
 }
 
 /// All a mesher and its judge need: domain, limited spacing, integral.
@@ -61,6 +71,8 @@ pub struct Prepared {
     pub spacing: Arc<dyn Spacing>,
     /// ∫ dA / f² of that.
     pub integral: Integral,
+    /// The rounds of adaptation by which the spacing came about.
+    pub rounds: Arc<[Round]>,
     /// The spacing on a background mesh, once a mesher has made one.
     pub background: OnceLock<Arc<Background>>,
 }
@@ -115,7 +127,7 @@ pub struct Store {
     repairs: Mutex<Vec<RepairReport>>,
     domains: Shelf<String, Arc<Domain>>,
     sites: Shelf<String, Arc<Site>>,
-    bases: Shelf<(String, String, bool), Arc<Base>>,
+    bases: Shelf<(String, String, bool, Option<String>), Arc<Base>>,
 }
 
 impl Store {
@@ -157,8 +169,10 @@ impl Store {
 
     /// Makes the domains and spacings of all cells, side by side. What is wrong with one is told when it is asked for.
     pub fn survey<'a>(&self, cells: impl IntoIterator<Item = &'a Cell>, threads: usize) {
+        // Adapting is work, and no survey.
         let distinct: BTreeMap<_, &Cell> = cells
             .into_iter()
+            .filter(|cell| cell.adapt.is_none())
             .map(|cell| ((&cell.domain, &cell.spacing, cell.lfs_cap), cell))
             .collect();
         let distinct: Vec<&Cell> = distinct.into_values().collect();
@@ -181,6 +195,13 @@ impl Store {
     /// # Errors
     /// [`PrepareError`].
     pub fn outlook(&self, cell: &Cell) -> Result<Outlook, PrepareError> {
+        if cell.adapt.is_some() {
+            // Nothing, until it has been adapted.
+            return Ok(Outlook {
+                lipschitz: f64::INFINITY,
+                integral: 0.0,
+            });
+        }
         let base = self.base(cell)?;
         Ok(Outlook {
             lipschitz: base.spacing.lipschitz(),
@@ -195,6 +216,7 @@ impl Store {
     pub fn prepare(&self, cell: &Cell, alpha: Option<f64>) -> Result<Prepared, PrepareError> {
         let base = self.base(cell)?;
         let (site, spec, lfs_cap) = (base.site.clone(), base.spec.clone(), base.lfs_cap);
+        let rounds = base.rounds.clone();
         let Some(alpha) = alpha else {
             return Ok(Prepared {
                 site,
@@ -202,6 +224,7 @@ impl Store {
                 lfs_cap,
                 spacing: base.spacing.clone(),
                 integral: base.integral,
+                rounds,
                 background: OnceLock::new(),
             });
         };
@@ -220,6 +243,7 @@ impl Store {
             lfs_cap,
             spacing,
             integral,
+            rounds,
             background: OnceLock::new(),
         })
     }
@@ -260,14 +284,34 @@ impl Store {
     }
 
     fn base(&self, cell: &Cell) -> Result<Arc<Base>, PrepareError> {
-        let key = (cell.domain.clone(), cell.spacing.clone(), cell.lfs_cap);
+        let key = (
+            cell.domain.clone(),
+            cell.spacing.clone(),
+            cell.lfs_cap,
+            cell.adapted_by(),
+        );
         self.bases.get(key, || {
             let site = self.site(&cell.domain)?;
             let spec = fill_in(&cell.spacing, &site.domain);
             let options = self.options(cell, f64::INFINITY);
-            let built = spacing::build_with(&spec, &site.domain, &options, || Ok(site.lfs.clone()))
+            let mut built = spacing::build_with(&spec, &site.domain, &options, || Ok(site.lfs.clone()))
                 .map_err(told(&site.domain))?;
-            let integral = if built.spec == "lfs" {
+            let mut rounds = Vec::new();
+            if cell.adapt.is_some() {
+                let factor = options.limit_factor;
+                let adapted = adapt::run(
+                    &site.domain,
+                    built.lfs_cap.then(|| site.lfs.clone()),
+                    built.function,
+                    cell,
+                    factor,
+                );
+                (built.function, rounds) = adapted.map_err(|reason| PrepareError::Adaptation {
+                    domain: site.domain.name().to_owned(),
+                    reason,
+                })?;
+            }
+            let integral = if built.spec == "lfs" && rounds.is_empty() {
                 site.integral_lfs
             } else {
                 spacing::integrate(&*built.function, &site.domain, INTEGRAL_ERROR).map_err(told(&site.domain))?
@@ -278,6 +322,7 @@ impl Store {
                 lfs_cap: built.lfs_cap,
                 spacing: built.function,
                 integral,
+                rounds: rounds.into(),
             }))
         })
     }

@@ -1,5 +1,6 @@
 //! A [`Report`] says all about one mesh; a [`Row`] is one line of an experiment, failures included.
 
+use super::adapt::{Adapt, Round};
 use crate::fem::Solution;
 use crate::meshers::parameter_value;
 use crate::quality::{Certificate, Statistics};
@@ -103,6 +104,9 @@ pub struct Report {
     /// Why nothing came of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poisson_failed: Option<String>,
+    /// The rounds of adaptation before this mesh, where the cell asks for adaptation.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rounds: Vec<Round>,
     /// Counts the mesher reports of itself, such as bites.
     pub counts: BTreeMap<String, f64>,
     /// The certificate.
@@ -201,6 +205,9 @@ pub struct Cell {
     /// A Poisson problem to solve on the mesh: a name in [`crate::fem::PROBLEMS`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poisson: Option<String>,
+    /// What adaptation shall make of the spacing before the mesh that is reported.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adapt: Option<Adapt>,
     /// Whether it runs alone and repeated.
     pub timed: bool,
 }
@@ -245,6 +252,7 @@ impl Cell {
             triangles: None,
             threads: 1,
             poisson: None,
+            adapt: None,
             timed: false,
         }
     }
@@ -270,6 +278,25 @@ impl Cell {
             params.collect::<String>(),
             if self.lfs_cap { "" } else { " --no-lfs-cap" }
         )
+    }
+
+    /// Where the spacing is adapted, all that it then depends on.
+    pub fn adapted_by(&self) -> Option<String> {
+        let adapt = self.adapt?;
+        let numbers = [adapt.eps, self.t, self.c_b];
+        let params: Vec<String> = self
+            .params
+            .iter()
+            .map(|(name, value)| format!("{name}={value}"))
+            .collect();
+        let (rounds, sample) = (adapt.rounds, adapt.sample);
+        Some(format!(
+            "{numbers:?} {rounds} {sample} {:?} {} {} {}",
+            self.poisson,
+            self.mesher,
+            params.join(" "),
+            self.seed
+        ))
     }
 
     /// The cell with another c_b for the same spacing: α = t / c_b stays.

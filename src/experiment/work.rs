@@ -78,6 +78,7 @@ pub fn tasks<E>(
             cell.domain.as_str(),
             cell.spacing.as_str(),
             cell.lfs_cap,
+            cell.adapted_by(),
             alpha.map(f64::to_bits),
             cell.timed,
         );

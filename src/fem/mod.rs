@@ -184,6 +184,11 @@ pub enum FemError {
 
 /// Solves the problem on the mesh and measures. Equal input gives bit-equal output; one thread.
 pub fn solve(mesh: &Mesh, problem: &Problem) -> Result<Solution, FemError> {
+    Ok(solve_at_vertices(mesh, problem)?.0)
+}
+
+/// As [`solve`], with u_h at every vertex of the mesh too, 0 where no triangle uses it.
+pub fn solve_at_vertices(mesh: &Mesh, problem: &Problem) -> Result<(Solution, Vec<f64>), FemError> {
     let elements = element::all(mesh)?;
     let system = system::assemble(mesh, &elements, problem)?;
     let mut cg = krylov::ConjugateGradients::new(&system.matrix, &system.load);
@@ -197,7 +202,7 @@ pub fn solve(mesh: &Mesh, problem: &Problem) -> Result<Solution, FemError> {
     };
     let nodal = system.at_vertices(&free);
     let norms = norms::measure(&elements, &nodal, problem)?;
-    Ok(Solution {
+    let solution = Solution {
         unknowns: free.len(),
         energy_error: norms.energy_error,
         energy_norm: norms.energy_norm,
@@ -207,5 +212,6 @@ pub fn solve(mesh: &Mesh, problem: &Problem) -> Result<Solution, FemError> {
         iterations,
         converged,
         spectrum,
-    })
+    };
+    Ok((solution, nodal))
 }

@@ -2,6 +2,7 @@
 //!
 //! Every sign in the project comes from [`predicates`]; every tolerance from [`tolerance`].
 
+pub mod boxes;
 pub mod interval;
 pub mod near;
 pub mod predicates;

@@ -4,6 +4,7 @@ use super::markdown::parameter;
 use super::{claims, findings, frontiers, poisson, rivals};
 use crate::charts::{self, ChartError};
 use crate::experiment::contest::{at_equal_count, at_equal_size};
+use crate::experiment::convergence::convergence;
 use crate::experiment::record::Row;
 use crate::experiment::series::{order_groups, time_series};
 use crate::experiment::summary::{Grid, measured};
@@ -23,6 +24,7 @@ pub(super) enum Section {
     Rivals,
     Peers,
     Poisson,
+    Adaptation,
     Duels,
     Claims,
 }
@@ -65,6 +67,7 @@ pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Chart>, ChartError
     draw_grid(rows, &mut drawer)?;
     draw_frontiers(rows, &mut drawer)?;
     draw_poisson(rows, &mut drawer)?;
+    draw_adaptation(rows, &mut drawer)?;
     let by_rule = findings::of_group(rows, "rules");
     if !by_rule.is_empty() {
         let caption = "Smallest angles by either rule of who bites whom, against t, with the bound of each.";
@@ -220,6 +223,18 @@ fn draw_poisson(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
         );
         let stem = drawer.next(Section::Poisson, &format!("poisson-{}", number + 1), &caption);
         charts::poisson(title, contest, &stem)?;
+    }
+    Ok(())
+}
+
+/// L2 errors against vertices, adapted and uniform.
+fn draw_adaptation(rows: &[Row], drawer: &mut Drawer) -> Result<(), ChartError> {
+    for both in convergence(rows) {
+        let title = &both[0].title;
+        let caption = format!("{title}: relative L2 error against vertices, adapted and uniform.");
+        let name = format!("adapt-{}", title.replace(' ', "-"));
+        let stem = drawer.next(Section::Adaptation, &name, &caption);
+        charts::adaptation(&both, &stem)?;
     }
     Ok(())
 }

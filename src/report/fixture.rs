@@ -103,6 +103,7 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
         rss_before_bytes: 0,
         outside: None,
         poisson: None,
+        rounds: Vec::new(),
         poisson_failed: None,
         certificate: certificate(bound + margin, bound),
         provenance: provenance(),

@@ -3,6 +3,7 @@
 //! [`write()`] reads `rows.jsonl` of a results folder and writes `README.md` and `charts/` beside it. The same rows give
 //! the same bytes, in whatever order they were written.
 
+mod adapt;
 mod angles;
 mod battery;
 mod claims;

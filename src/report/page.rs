@@ -1,5 +1,6 @@
 //! `README.md` of a results folder: what was run, what came out, the charts.
 
+use super::adapt;
 use super::angles;
 use super::claims;
 use super::corners;
@@ -56,6 +57,7 @@ pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading
         ("Time of biting, step by step", sections::time(rows), Section::Time),
         ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
         ("What quality is for", poisson::poisson(rows), Section::Poisson),
+        ("Adaptation", adapt::adaptation(rows), Section::Adaptation),
         ("Beside the meshers people use", peers::peers(rows), Section::Peers),
         (
             "Where biting wins, where it loses, and why",
@@ -109,6 +111,7 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
         sections::fewest_finding(rows),
         frontiers::frontier_finding(rows),
         poisson::poisson_finding(rows),
+        adapt::adaptation_finding(rows),
         corners::corner_finding(rows),
         sections::order_finding(rows),
         sections::certificate_finding(rows),

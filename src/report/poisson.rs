@@ -4,13 +4,15 @@ use super::markdown::{number, table};
 use crate::charts::YIELDS;
 use crate::experiment::claims::ours;
 use crate::experiment::contest::Contest;
+use crate::experiment::convergence::GROUP;
 use crate::experiment::record::Row;
 use crate::experiment::summary::{first_seen, measured, median};
 use crate::fem::Solution;
 
 /// The rows with a problem, split by what was solved where.
 pub(super) fn by_problem(rows: &[Row]) -> Vec<(String, Contest<'_>)> {
-    let own: Vec<&Row> = rows.iter().filter(|row| row.cell.poisson.is_some()).collect();
+    let is_own = |row: &&Row| row.cell.poisson.is_some() && row.group != GROUP;
+    let own: Vec<&Row> = rows.iter().filter(is_own).collect();
     let task = |row: &Row| format!("{:?} {} {}", row.cell.poisson, row.cell.domain, row.cell.spacing);
     let tasks: Vec<String> = own.iter().map(|row| task(row)).collect();
     let contest = |wanted: &str| {

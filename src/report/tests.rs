@@ -1,5 +1,6 @@
 //! Findings against numbers worked out by hand, and the page as files.
 
+mod adapt;
 mod outside;
 mod rivals;
 mod rules;

@@ -62,7 +62,7 @@ impl Spacing for Min {
     }
 }
 
-/// f(x) = factor · g(x): the cheapest way to a smaller Lipschitz constant.
+/// f(x) = factor · g(x): with a factor under 1 the cheapest way to a smaller Lipschitz constant.
 #[derive(Clone)]
 pub struct Scaled {
     factor: f64,
@@ -70,7 +70,7 @@ pub struct Scaled {
 }
 
 impl Scaled {
-    /// `factor` in (0, 1].
+    /// `factor` positive.
     pub fn new(factor: f64, inner: Arc<dyn Spacing>) -> Self {
         Self { factor, inner }
     }

@@ -1,37 +1,21 @@
-//! `expr:EXPRESSION`: f given by a formula in x and y.
-//!
-//! # Guarantee
-//! * [`Spacing::lipschitz`] is a proved upper bound of ‖∇f‖ over the domain's bounding box, found by best-first
-//!   subdivision with interval gradients, within 1 % of the supremum where that is reached within the budget; infinite
-//!   where no bound was found. The box is convex, so the bound is a Lipschitz constant there.
-//! * [`Spacing::lower_bound`] and [`Spacing::upper_bound`] are interval enclosures: the better of the natural extension
-//!   and the mean-value form f(c) + ∇f(cell) · (cell − c).
-//!
-//! # Reference
-//! A. Neumaier, "Interval Methods for Systems of Equations", 1990: both forms and their convergence.
+//! `expr:EXPRESSION`: f given by a formula in x and y, with the bounds of [`Proved`].
 
-use super::gradient::Gradient;
+use super::Rect;
 use super::grammar::{self, GrammarError};
+use super::jet::Scalar;
 use super::program::Program;
-use super::{Rect, Spacing};
-use crate::geometry::DVec2;
-use crate::geometry::interval::Interval;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-
-/// Cells a bound may cost: some 20 ms.
-const BUDGET: usize = 10_000;
-
-/// A bound this close above a value that is taken, relatively, is good enough.
-const GAP: f64 = 0.01;
+use super::proved::{Formula, Proved};
 
 /// f(x, y) by a formula.
-#[derive(Clone, Debug)]
-pub struct Expression {
-    program: Program,
-    bounds: Rect,
-    lipschitz: f64,
-    range: Interval,
+pub type Expression = Proved<Program>;
+
+impl Formula for Program {
+    /// Some 20 ms.
+    const BUDGET: usize = 10_000;
+
+    fn run<N: Scalar>(&self, x: N, y: N) -> N {
+        Program::run(self, x, y)
+    }
 }
 
 impl Expression {
@@ -40,122 +24,15 @@ impl Expression {
     /// # Errors
     /// [`GrammarError`] with the column.
     pub fn new(text: &str, bounds: Rect) -> Result<Self, GrammarError> {
-        let program = grammar::compile(text)?;
-        let mut expression = Self {
-            program,
-            bounds,
-            lipschitz: f64::INFINITY,
-            range: Interval::WHOLE,
-        };
-        let point = |x: DVec2| Rect { min: x, max: x };
-        let slope = |cell| expression.gradient(cell).slope();
-        let lipschitz = supremum(bounds, slope, |x| slope(point(x)));
-        let high = supremum(bounds, |cell| expression.enclosure(cell).high, |x| expression.at(x));
-        let low = -supremum(bounds, |cell| -expression.enclosure(cell).low, |x| -expression.at(x));
-        expression.lipschitz = lipschitz;
-        expression.range = Interval::new(low, high);
-        Ok(expression)
+        Ok(Self::on(grammar::compile(text)?, bounds))
     }
-
-    fn gradient(&self, cell: Rect) -> Gradient {
-        let side = |axis: usize| Interval::new(cell.min[axis], cell.max[axis]);
-        self.program.run(Gradient::x(side(0)), Gradient::y(side(1)))
-    }
-
-    fn enclosure(&self, cell: Rect) -> Interval {
-        let centre = cell.centre();
-        let gradient = self.gradient(cell);
-        let middle: Interval = self.program.run(Interval::point(centre.x), Interval::point(centre.y));
-        let offset = |axis: usize| Interval::new(cell.min[axis], cell.max[axis]) - Interval::point(centre[axis]);
-        let mean_value = middle + gradient.dx * offset(0) + gradient.dy * offset(1);
-        gradient.value.meet(mean_value)
-    }
-}
-
-impl Spacing for Expression {
-    fn at(&self, x: DVec2) -> f64 {
-        self.program.run(x.x, x.y)
-    }
-
-    fn lipschitz(&self) -> f64 {
-        self.lipschitz
-    }
-
-    fn lower_bound(&self, cell: Rect) -> f64 {
-        if cell == self.bounds {
-            self.range.low
-        } else {
-            self.enclosure(cell).low
-        }
-    }
-
-    fn upper_bound(&self, cell: Rect) -> f64 {
-        if cell == self.bounds {
-            self.range.high
-        } else {
-            self.enclosure(cell).high
-        }
-    }
-}
-
-/// A cell waiting to be split, ordered by the bound on it, then by age so that the order is always the same.
-struct Waiting {
-    bound: f64,
-    age: usize,
-    cell: Rect,
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.age.cmp(&self.age))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}
-
-/// An upper bound of a function on `root`, by best-first subdivision: `bound` bounds it on a cell, `value` is its value
-/// or a lower bound of its supremum at a point.
-fn supremum(root: Rect, bound: impl Fn(Rect) -> f64, value: impl Fn(DVec2) -> f64) -> f64 {
-    let mut reached = f64::NEG_INFINITY;
-    let mut heap = BinaryHeap::from([Waiting {
-        bound: bound(root),
-        age: 0,
-        cell: root,
-    }]);
-    let mut age = 0;
-    while let Some(top) = heap.pop() {
-        reached = reached.max(value(top.cell.centre()));
-        if top.bound - reached <= GAP * reached.abs() || age >= BUDGET {
-            return top.bound;
-        }
-        for cell in top.cell.quarters() {
-            age += 1;
-            // A part is never bounded worse than the whole.
-            heap.push(Waiting {
-                bound: bound(cell).min(top.bound),
-                age,
-                cell,
-            });
-        }
-    }
-    f64::INFINITY
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Spacing;
     use super::*;
+    use crate::geometry::DVec2;
     use exmex::{Differentiate, Express, FlatEx};
     use proptest::prelude::*;
 
@@ -238,40 +115,6 @@ mod tests {
         }
         assert_eq!(Expression::new("0.1+sqrt(x)", BOX).unwrap().lipschitz(), f64::INFINITY);
         assert_eq!(Expression::new("1/(x-0.5)^2", BOX).unwrap().lipschitz(), f64::INFINITY);
-    }
-
-    /// Within 1 % of the supremum where cells tell, the budget where they never do.
-    #[test]
-    fn a_supremum_is_bounded_from_above_and_closely() {
-        let cells = std::cell::Cell::new(0);
-        let counted = |bound: f64| {
-            cells.set(cells.get() + 1);
-            bound
-        };
-        // The largest value of x + y over a cell is that at its upper right corner; at the centre it is smaller.
-        let corner = |cell: Rect| counted(cell.max.x + cell.max.y);
-        let found = supremum(BOX, corner, |x| x.x + x.y);
-        assert!((2.0..=2.0 * 1.011).contains(&found) && cells.take() < 100, "{found}");
-        let below = supremum(BOX, |cell| counted(cell.max.x - 5.0), |x| x.x - 5.0);
-        assert!((-4.0..=-4.0 * 0.989).contains(&below) && cells.take() < 100, "{below}");
-        // A bound that is far off everywhere stays what it is, and costs no more than the budget.
-        assert_eq!(supremum(BOX, |_| counted(3.0), |_| 1.0), 3.0);
-        let cost = cells.take();
-        assert!((BUDGET..BUDGET + 10).contains(&cost), "{cost}");
-        // Parts bounded worse than the whole are not believed.
-        let worse = |cell: Rect| counted(2.0 / cell.size().x);
-        assert_eq!(supremum(BOX, worse, |_| 1.0), 2.0);
-    }
-
-    #[test]
-    fn cells_wait_by_bound_and_then_by_age() {
-        let cell = |bound: f64, age: usize| Waiting { bound, age, cell: BOX };
-        let mut heap = BinaryHeap::from([cell(1.0, 3), cell(2.0, 2), cell(2.0, 1), cell(0.5, 0)]);
-        let order: Vec<_> = std::iter::from_fn(|| heap.pop())
-            .map(|top| (top.bound, top.age))
-            .collect();
-        assert_eq!(order, [(2.0, 1), (2.0, 2), (1.0, 3), (0.5, 0)]);
-        assert!(cell(1.0, 3) == cell(1.0, 3) && cell(1.0, 3) != cell(1.0, 4) && cell(1.0, 3) < cell(1.5, 3));
     }
 
     #[test]

@@ -104,6 +104,16 @@ impl Gradient {
         }
     }
 
+    /// Somewhere in `value`, with jumps.
+    pub fn anywhere(value: Interval) -> Self {
+        Self {
+            value,
+            dx: Interval::WHOLE,
+            dy: Interval::WHOLE,
+            norm: f64::INFINITY,
+        }
+    }
+
     /// √(f² + h²): its gradient is J^T u with a unit vector u, so at most ‖J‖₂ ≤ √(‖J‖₁ ‖J‖_∞) of the Jacobian J.
     fn hypot(self, other: Self) -> Self {
         let value = self.value.hypot(other.value);

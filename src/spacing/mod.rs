@@ -2,7 +2,9 @@
 //!
 //! A SPEC ([`Spec`]) names a spacing; [`build`] makes of it the f a mesher sees:
 //!
-//! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`Expression`], or the [`Min`] of several;
+//! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`Expression`], [`Hessian`] (the nsf of §2.2) and
+//!    [`Nodal`], the same for a field on an earlier mesh, [`EdgeLength`] and [`NearestNeighbour`] of an earlier mesh (§2.1), or
+//!    the [`Min`] of several;
 //! 2. capped by lfs, which gives the gns of §2.3, unless [`Options::lfs_cap`] is off;
 //! 3. limited to the Lipschitz constant [`Options::alpha`] by [`limit`] (§2.3).
 //!
@@ -10,6 +12,7 @@
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
+use crate::mesh::files::{self, MeshFileError};
 use std::sync::Arc;
 
 mod background;
@@ -17,19 +20,26 @@ mod combine;
 pub(crate) mod cover;
 mod expression;
 mod features;
+mod field;
 mod gradient;
 mod gradient_limit;
 mod grammar;
+mod hessian;
 mod integral;
-
+mod jet;
 mod lfs;
 #[cfg(test)]
 mod limit_tests;
 mod limited;
+mod of_mesh;
+mod old_mesh;
 mod parse;
 mod program;
+mod proved;
+mod recover;
 mod rule;
 mod samples;
+mod settings;
 mod shortlist;
 #[cfg(test)]
 mod testing;
@@ -38,11 +48,14 @@ mod uniform;
 pub use background::Background;
 pub use combine::{Min, Scaled};
 pub use expression::Expression;
+pub use field::{Nodal, recovered_eigenvalues};
 pub use gradient_limit::{background, limit};
 pub use grammar::GrammarError;
+pub use hessian::{Hessian, Tolerance};
 pub use integral::{Integral, estimate_triangles, integrate};
 pub use lfs::{Lfs, Narrowest};
 pub use limited::Limited;
+pub use of_mesh::{EdgeLength, NearestNeighbour};
 pub use parse::{KINDS, Spec, spec_for_size};
 pub use rule::Rule;
 pub use uniform::Uniform;
@@ -91,6 +104,14 @@ pub enum SpacingError {
         kind: String,
         /// What there is.
         known: String,
+    },
+    /// The mesh that the spacing is to come from will not do.
+    #[error("spacing `{spec}`: {message}")]
+    Mesh {
+        /// The spacing.
+        spec: String,
+        /// What is wrong with its mesh, or with its file.
+        message: String,
     },
     /// An option out of its range.
     #[error("{name} is {value}: it must be {range}")]
@@ -299,17 +320,57 @@ fn collect(spec: &Spec, bounds: Rect, parts: &mut Vec<Arc<dyn Spacing>>) -> Resu
     match spec {
         Spec::Lfs => {}
         Spec::Uniform(value) => parts.push(Arc::new(Uniform(*value))),
-        Spec::Expression(text) => {
-            let expression = Expression::new(text, bounds).map_err(|source| SpacingError::Parse {
-                spec: text.clone(),
-                column: source.column,
-                message: source.message,
-            })?;
-            parts.push(Arc::new(expression));
+        Spec::Expression(text) => parts.push(Arc::new(Expression::new(text, bounds).map_err(told(text))?)),
+        Spec::Hessian(text, tolerance) => {
+            parts.push(Arc::new(Hessian::new(text, tolerance, bounds).map_err(told(text))?));
         }
+        Spec::Field(file, tolerance) => {
+            let field = on_mesh(spec, files::read_with_values(file.as_ref()), |(mesh, values)| {
+                Nodal::for_field(mesh, values, tolerance, bounds)
+            })?;
+            parts.push(Arc::new(field));
+        }
+        Spec::EdgeLength(file, factor) => {
+            let el = on_mesh(spec, files::read(file.as_ref()), EdgeLength::new)?;
+            parts.push(times(*factor, Arc::new(el)));
+        }
+        Spec::NearestNeighbour(file, factor) => {
+            let nn = on_mesh(spec, files::read(file.as_ref()), NearestNeighbour::new)?;
+            parts.push(times(*factor, Arc::new(nn)));
+        }
+        Spec::Gns(inner) => collect(inner, bounds, parts)?,
         Spec::Min(specs) => specs.iter().try_for_each(|spec| collect(spec, bounds, parts))?,
     }
     Ok(())
+}
+
+/// The spacing that `make` makes of what was read.
+fn on_mesh<M, T>(
+    spec: &Spec,
+    read: Result<M, MeshFileError>,
+    make: impl FnOnce(&M) -> Result<T, String>,
+) -> Result<T, SpacingError> {
+    let made = read.map_err(|error| error.to_string()).and_then(|mesh| make(&mesh));
+    made.map_err(|message| SpacingError::Mesh {
+        spec: spec.to_string(),
+        message,
+    })
+}
+
+fn times(factor: Option<f64>, spacing: Arc<dyn Spacing>) -> Arc<dyn Spacing> {
+    match factor {
+        Some(factor) => Arc::new(Scaled::new(factor, spacing)),
+        None => spacing,
+    }
+}
+
+/// What is wrong with an expression, as an error of the spacing.
+fn told(text: &str) -> impl FnOnce(GrammarError) -> SpacingError {
+    |source| SpacingError::Parse {
+        spec: text.to_owned(),
+        column: source.column,
+        message: source.message,
+    }
 }
 
 #[cfg(test)]

@@ -1,16 +1,29 @@
 //! SPEC: the text that names a spacing.
 //!
 //! ```text
-//! SPEC = lfs | uniform:H | expr:EXPRESSION | min(SPEC, SPEC, …)
+//! SPEC = lfs | uniform:H | expr:EXPRESSION | hessian:EXPRESSION;eps=E[;min=A][;max=B]
+//!      | field:FILE;eps=E[;min=A][;max=B] | el:FILE[;factor=K] | nn:FILE[;factor=K] | gns:SPEC | min(SPEC, SPEC, …)
 //! ```
-//! Commas split `min` where no parenthesis of an expression is open.
+//! Commas split `min` where no parenthesis of an expression is open; a file's name has no commas, semicolons or parentheses.
 
 use super::SpacingError;
 use super::grammar;
+use super::hessian::Tolerance;
+use super::settings;
 use std::fmt;
 
 /// The kinds of SPEC with their arguments, for messages and lists.
-pub const KINDS: [&str; 4] = ["lfs", "uniform:H", "expr:EXPRESSION", "min(A, B)"];
+pub const KINDS: [&str; 9] = [
+    "lfs",
+    "uniform:H",
+    "expr:EXPRESSION",
+    "hessian:EXPRESSION;eps=E",
+    "field:FILE;eps=E",
+    "el:FILE",
+    "nn:FILE",
+    "gns:SPEC",
+    "min(A, B)",
+];
 
 /// A parsed SPEC; `Display` gives its canonical text.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +34,16 @@ pub enum Spec {
     Uniform(f64),
     /// f given by an expression in x and y.
     Expression(String),
+    /// nsf of §2.2 for u given by an expression.
+    Hessian(String, Tolerance),
+    /// nsf of §2.2 for u given at the vertices of the mesh in a file.
+    Field(String, Tolerance),
+    /// el_M of §2.1 for the mesh in a file, times a factor if there is one.
+    EdgeLength(String, Option<f64>),
+    /// nn_M of §2.1 for the mesh in a file, times a factor if there is one.
+    NearestNeighbour(String, Option<f64>),
+    /// gns of §2.3: the smaller of lfs and another.
+    Gns(Box<Spec>),
     /// The smallest of several.
     Min(Vec<Spec>),
 }
@@ -31,12 +54,25 @@ impl fmt::Display for Spec {
             Self::Lfs => out.write_str("lfs"),
             Self::Uniform(value) => write!(out, "uniform:{value}"),
             Self::Expression(text) => write!(out, "expr:{text}"),
+            Self::Hessian(text, tolerance) => write!(out, "hessian:{text}{}", tolerance_text(tolerance)),
+            Self::Field(file, tolerance) => write!(out, "field:{file}{}", tolerance_text(tolerance)),
+            Self::EdgeLength(file, factor) => write!(out, "el:{file}{}", settings::text(&[("factor", *factor)])),
+            Self::NearestNeighbour(file, factor) => write!(out, "nn:{file}{}", settings::text(&[("factor", *factor)])),
+            Self::Gns(inner) => write!(out, "gns:{inner}"),
             Self::Min(parts) => {
                 let parts: Vec<String> = parts.iter().map(ToString::to_string).collect();
                 write!(out, "min({})", parts.join(", "))
             }
         }
     }
+}
+
+fn tolerance_text(tolerance: &Tolerance) -> String {
+    settings::text(&[
+        ("eps", Some(tolerance.eps)),
+        ("min", tolerance.min),
+        ("max", tolerance.max),
+    ])
 }
 
 impl Spec {
@@ -51,9 +87,10 @@ impl Spec {
     /// Whether the spacing is nowhere above lfs by its own definition.
     pub fn is_capped(&self) -> bool {
         match self {
-            Self::Lfs => true,
+            Self::Lfs | Self::Gns(_) => true,
             Self::Min(parts) => parts.iter().any(Self::is_capped),
-            Self::Uniform(_) | Self::Expression(_) => false,
+            Self::Uniform(_) | Self::Expression(_) | Self::Hessian(..) => false,
+            Self::Field(..) | Self::EdgeLength(..) | Self::NearestNeighbour(..) => false,
         }
     }
 }
@@ -71,12 +108,12 @@ pub fn spec_for_size(expression: &str, c_b: f64) -> Result<String, SpacingError>
     Ok(format!("expr:({})/{c_b}", expression.trim()))
 }
 
-/// How deep `min` may nest: keeps the stack small, here and wherever a [`Spec`] is walked.
+/// How deep `min` and `gns` may nest: keeps the stack small, here and wherever a [`Spec`] is walked.
 const NESTING: usize = 64;
 
 struct Reader<'a> {
     whole: &'a str,
-    /// How many `min(` are open.
+    /// How many `min(` and `gns:` are open.
     open: usize,
 }
 
@@ -110,35 +147,108 @@ impl Reader<'_> {
                 .ok_or_else(|| self.error(from + "uniform:".len(), message));
         }
         if let Some(rest) = text.strip_prefix("expr:") {
-            let start = from + "expr:".len();
-            return match grammar::compile(rest) {
-                Ok(_) => Ok(Spec::Expression(rest.trim().into())),
-                Err(source) => {
-                    let offset = rest
-                        .char_indices()
-                        .nth(source.column - 1)
-                        .map_or(rest.len(), |(byte, _)| byte);
-                    Err(self.error(start + offset, source.message))
-                }
-            };
+            self.compiles(rest, from + "expr:".len())?;
+            return Ok(Spec::Expression(rest.trim().into()));
+        }
+        if let Some(rest) = text.strip_prefix("hessian:") {
+            let start = from + "hessian:".len();
+            let (solution, tolerance) = self.tolerance(rest, start)?;
+            self.compiles(solution, start)?;
+            return Ok(Spec::Hessian(solution.trim().into(), tolerance));
+        }
+        if let Some(rest) = text.strip_prefix("field:") {
+            let start = from + "field:".len();
+            let (file, tolerance) = self.tolerance(rest, start)?;
+            return Ok(Spec::Field(self.file(file, start)?, tolerance));
+        }
+        for (kind, make) in [
+            ("el:", Spec::EdgeLength as fn(String, Option<f64>) -> Spec),
+            ("nn:", Spec::NearestNeighbour),
+        ] {
+            if let Some(rest) = text.strip_prefix(kind) {
+                let start = from + kind.len();
+                let (file, [factor]) = self.settings(rest, start, ["factor"])?;
+                return Ok(make(self.file(file, start)?, factor));
+            }
+        }
+        if text.starts_with("gns:") {
+            let inner = self.nested(from, "gns", |reader| {
+                reader.spec(from + "gns:".len(), from + text.len())
+            })?;
+            return Ok(Spec::Gns(Box::new(inner)));
         }
         if let Some(rest) = text
             .strip_prefix("min")
             .map(str::trim_start)
             .filter(|rest| rest.starts_with('('))
         {
-            if self.open == NESTING {
-                return Err(self.error(from, "`min` is nested too deeply"));
-            }
-            self.open += 1;
-            let spec = self.min(from + text.len() - rest.len() + 1, from + text.len());
-            self.open -= 1;
-            return spec;
+            let inside = from + text.len() - rest.len() + 1;
+            return self.nested(from, "min", |reader| reader.min(inside, from + text.len()));
         }
         Err(SpacingError::UnknownKind {
             kind: text.into(),
             known: KINDS.join(", "),
         })
+    }
+
+    /// What `read` finds one level deeper, for the `name` that stands at `from`.
+    fn nested(
+        &mut self,
+        from: usize,
+        name: &str,
+        read: impl FnOnce(&mut Self) -> Result<Spec, SpacingError>,
+    ) -> Result<Spec, SpacingError> {
+        if self.open == NESTING {
+            return Err(self.error(from, format!("`{name}` is nested too deeply")));
+        }
+        self.open += 1;
+        let spec = read(self);
+        self.open -= 1;
+        spec
+    }
+
+    /// Refuses `text`, which starts at `start`, where it is no expression.
+    fn compiles(&self, text: &str, start: usize) -> Result<(), SpacingError> {
+        let Err(source) = grammar::compile(text) else {
+            return Ok(());
+        };
+        let place = text.char_indices().nth(source.column - 1);
+        let offset = place.map_or(text.len(), |(byte, _)| byte);
+        Err(self.error(start + offset, source.message))
+    }
+
+    /// Splits `ARGUMENT;name=value;…`, which starts at `start`.
+    fn settings<'t, const N: usize>(
+        &self,
+        text: &'t str,
+        start: usize,
+        names: [&str; N],
+    ) -> Result<(&'t str, [settings::Value; N]), SpacingError> {
+        settings::read(text, names).map_err(|(at, message)| self.error(start + at, message))
+    }
+
+    /// A file's name, which starts at `start`.
+    fn file(&self, text: &str, start: usize) -> Result<String, SpacingError> {
+        let name = text.trim();
+        if name.is_empty() {
+            return Err(self.error(start, "the file of a mesh expected"));
+        }
+        Ok(name.to_owned())
+    }
+
+    /// Splits `ARGUMENT;eps=E;min=A;max=B`, which starts at `start`.
+    fn tolerance<'t>(&self, text: &'t str, start: usize) -> Result<(&'t str, Tolerance), SpacingError> {
+        let (argument, [eps, min, max]) = self.settings(text, start, ["eps", "min", "max"])?;
+        let eps = eps.ok_or_else(|| {
+            let message = "`;eps=E` expected: the error of linear interpolation that is allowed, in the unit of u";
+            self.error(start + text.len(), message)
+        })?;
+        match (min, max) {
+            (Some(low), Some(high)) if low > high => {
+                Err(self.error(start + argument.len(), format!("min = {low} is above max = {high}")))
+            }
+            _ => Ok((argument, Tolerance { eps, min, max })),
+        }
     }
 
     /// The parts of a `min(` whose inside starts at `from`, up to the `)` that must end the text.
@@ -175,131 +285,4 @@ impl Reader<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_kind_reads_back_as_it_is_written() {
-        for (text, canonical) in [
-            ("lfs", "lfs"),
-            (" uniform: 0.10 ", "uniform:0.1"),
-            ("expr: 0.1+min(x, y) ", "expr:0.1+min(x, y)"),
-            ("min( lfs,uniform:2)", "min(lfs, uniform:2)"),
-            (
-                "min(lfs, expr:min(x,y), min(lfs,uniform:1))",
-                "min(lfs, expr:min(x,y), min(lfs, uniform:1))",
-            ),
-        ] {
-            let spec = Spec::parse(text).unwrap();
-            assert_eq!(spec.to_string(), canonical);
-            assert_eq!(Spec::parse(canonical).unwrap(), spec);
-        }
-    }
-
-    #[test]
-    fn errors_say_the_column_or_the_kinds() {
-        let error = |text: &str| Spec::parse(text).unwrap_err().to_string();
-        assert_eq!(
-            error("uniform:-1"),
-            "spacing `uniform:-1`, column 9: a positive number expected after `uniform:`"
-        );
-        assert_eq!(
-            error("min(lfs, expr:x+*y)"),
-            "spacing `min(lfs, expr:x+*y)`, column 17: a number, x, y or a function expected, found `*`"
-        );
-        assert_eq!(
-            error("hessian:x^2"),
-            "spacing `hessian:x^2` is unknown; there are lfs, uniform:H, expr:EXPRESSION, min(A, B)"
-        );
-        assert!(error("min(lfs, lfs").ends_with("column 13: `)` expected to end `min(`"));
-        assert!(error("min(lfs)").ends_with("column 8: `min` takes two or more"));
-        assert!(error("min(lfs, lfs) + 1").ends_with("column 14: nothing expected after `min(…)`"));
-    }
-
-    #[test]
-    fn min_in_min_without_end_does_not_overflow_the_stack() {
-        let nested = |depth: usize| format!("{}lfs{}", "min(lfs,".repeat(depth), ")".repeat(depth));
-        assert!(Spec::parse(&nested(NESTING)).is_ok());
-        for depth in [NESTING + 1, 100_000] {
-            let error = Spec::parse(&nested(depth)).unwrap_err().to_string();
-            assert!(error.ends_with("column 513: `min` is nested too deeply"));
-        }
-    }
-
-    #[test]
-    fn min_may_have_any_number_of_mins_beside_one_another() {
-        let many = format!("min({})", vec!["min(lfs, lfs)"; 10 * NESTING].join(", "));
-        assert!(matches!(Spec::parse(&many), Ok(Spec::Min(parts)) if parts.len() == 10 * NESTING));
-        assert!(Spec::parse(&format!("min(lfs, {many})")).is_ok());
-    }
-
-    #[test]
-    fn a_size_is_divided_by_c_b() {
-        assert_eq!(spec_for_size(" 0.1+x ", 0.5).unwrap(), "expr:(0.1+x)/0.5");
-        let error = spec_for_size("0.1+", 0.5).unwrap_err().to_string();
-        assert_eq!(
-            error,
-            "spacing `0.1+`, column 5: a number, x, y or a function expected, found the end"
-        );
-    }
-
-    #[test]
-    fn columns_count_characters_from_the_start_of_the_whole() {
-        let error = |text: &str| Spec::parse(text).unwrap_err().to_string();
-        for (text, column, message) in [
-            ("  uniform:0", 11, "a positive number expected after `uniform:`"),
-            ("uniform:inf", 9, "a positive number expected after `uniform:`"),
-            ("uniform:nan", 9, "a positive number expected after `uniform:`"),
-            ("uniform:", 9, "a positive number expected after `uniform:`"),
-            ("expr:x+*y", 8, "a number, x, y or a function expected, found `*`"),
-            (" expr: 1+", 10, "a number, x, y or a function expected, found the end"),
-            ("min(lfs, uniform:x)", 18, "a positive number expected after `uniform:`"),
-            ("min(expr:x §, lfs)", 12, "`§` has no meaning here"),
-            ("min (lfs)", 9, "`min` takes two or more"),
-            ("min(lfs, min(lfs))", 17, "`min` takes two or more"),
-            ("min(lfs, lfs) ;", 14, "nothing expected after `min(…)`"),
-            (" min(lfs, lfs", 14, "`)` expected to end `min(`"),
-            ("min(lfs, expr:(x)", 18, "`)` expected to end `min(`"),
-        ] {
-            assert_eq!(error(text), format!("spacing `{text}`, column {column}: {message}"));
-        }
-        for (text, kind) in [
-            ("", ""),
-            ("min", "min"),
-            ("min(lfs,, lfs)", ""),
-            ("min(lfs, LFS)", "LFS"),
-            ("minimum(lfs, lfs)", "minimum(lfs, lfs)"),
-        ] {
-            let told = Spec::parse(text).unwrap_err();
-            assert!(
-                matches!(&told, SpacingError::UnknownKind { kind: found, .. } if found == kind),
-                "{text}: {told}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_spec_is_capped_where_lfs_is_a_part_of_it() {
-        for (text, is_capped) in [
-            ("lfs", true),
-            ("uniform:1", false),
-            ("expr:x", false),
-            ("min(uniform:1, expr:x)", false),
-            ("min(uniform:1, lfs)", true),
-            ("min(uniform:1, min(expr:x, lfs))", true),
-        ] {
-            assert_eq!(Spec::parse(text).unwrap().is_capped(), is_capped, "{text}");
-        }
-    }
-
-    #[test]
-    fn commas_and_parentheses_of_expressions_are_their_own() {
-        let spec = Spec::parse(" min ( expr:max(x, (y)), min(lfs, uniform:2 ) , expr:(x)*(y) )").unwrap();
-        let expression = |text: &str| Spec::Expression(text.to_owned());
-        let inner = Spec::Min(vec![Spec::Lfs, Spec::Uniform(2.0)]);
-        assert_eq!(
-            spec,
-            Spec::Min(vec![expression("max(x, (y))"), inner, expression("(x)*(y)")])
-        );
-    }
-}
+mod tests;

@@ -1,7 +1,10 @@
 //! Oracles and inputs for the tests of this folder.
 
+use super::{Options, build};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
+use crate::mesh::Mesh;
+use crate::meshers::{Budget, Parameters, Request, Trace};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -63,4 +66,19 @@ pub fn points_inside(domain: &Domain, count: usize) -> Vec<DVec2> {
     let mut random = Pcg64::seed_from_u64(11);
     let anywhere = std::iter::repeat_with(|| bounds.min + random_point(&mut random) * bounds.size());
     anywhere.filter(|&x| domain.contains(x)).take(count).collect()
+}
+
+/// A mesh of `domain` by biting with its defaults, for a SPEC, t and c_b.
+pub fn bitten(domain: &Domain, spec: &str, [t, c_b]: [f64; 2]) -> Mesh {
+    let prepared = build(spec, domain, &Options::new(t, c_b)).unwrap_or_else(|error| panic!("{spec}: {error}"));
+    let entry = crate::meshers::find("biting").expect("a mesher");
+    let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
+    let request = Request {
+        c_b,
+        seed: 0,
+        threads: 1,
+        budget: Budget::default(),
+    };
+    let mesh = mesher.mesh(domain, &*prepared.function, &request, &mut Trace::default());
+    mesh.unwrap_or_else(|error| panic!("{spec}: {error}"))
 }

@@ -5,6 +5,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
+mod adapt;
 mod battery;
 #[cfg(unix)]
 mod compare;

@@ -1,6 +1,7 @@
 //! Groups of a plan and the cells they stand for.
 
 use super::{CellBudget, Number, PlannedCell};
+use crate::experiment::adapt::Adapt;
 use crate::experiment::record::Cell;
 use crate::experiment::summary::parameter_text;
 use crate::fem::Problem;
@@ -43,6 +44,9 @@ pub struct Group {
     /// A Poisson problem to solve on each mesh.
     #[serde(default)]
     poisson: Option<String>,
+    /// Adaptations of the spacing to u of that problem, one cell each.
+    #[serde(default)]
+    adapt: Option<Vec<Adapt>>,
     #[serde(default)]
     timed: bool,
     #[serde(default = "three")]
@@ -64,6 +68,7 @@ struct Quick {
     methods: Option<Methods>,
     t: Option<Vec<Number>>,
     c_b: Option<Vec<Number>>,
+    adapt: Option<Vec<Adapt>>,
     equal_triangles: Option<Counts>,
     repeats: Option<usize>,
 }
@@ -159,6 +164,7 @@ impl Group {
         self.spacings = quick.spacings.unwrap_or(self.spacings);
         self.params = quick.params.or(self.params);
         self.methods = quick.methods.or(self.methods);
+        self.adapt = quick.adapt.or(self.adapt);
         self.equal_triangles = quick.equal_triangles.or(self.equal_triangles);
         self.t = quick.t.unwrap_or(self.t);
         self.c_b = quick.c_b.unwrap_or(self.c_b);
@@ -177,6 +183,7 @@ impl Group {
             self.c_b.len(),
             self.seeds.len(),
             self.counts().len(),
+            self.adapt.as_ref().map_or(1, Vec::len),
             self.threads.len(),
         ];
         lists
@@ -189,16 +196,24 @@ impl Group {
         if let Some(Err(error)) = self.poisson.as_ref().map(|name| Problem::named(name, Rect::EMPTY)) {
             return Err(error.to_string());
         }
+        if self.adapt.is_some() && self.poisson.is_none() {
+            return Err("`adapt` needs a problem to adapt to, such as `poisson = \"corner\"`".into());
+        }
+        for adapt in self.adapt.iter().flatten() {
+            adapt.check()?;
+        }
         if self.timed && self.repeats == 0 {
             return Err("`repeats` must be at least 1".into());
         }
         let methods = self.methods()?;
         let asked = |domain: &String, spacing: &String, method: &Method| {
             let mut cells = Vec::new();
-            for (&seed, triangles) in self
+            let adaptations = self.adaptations();
+            for ((&seed, triangles), adapt) in self
                 .seeds
                 .iter()
                 .flat_map(|seed| self.counts().into_iter().map(move |n| (seed, n)))
+                .flat_map(|asked| adaptations.iter().map(move |adapt| (asked, *adapt)))
             {
                 for (t, c_b) in self.t.iter().flat_map(|t| self.c_b.iter().map(move |c_b| (t, c_b))) {
                     cells.extend(self.threads.iter().map(|&threads| Cell {
@@ -213,6 +228,7 @@ impl Group {
                         triangles,
                         threads,
                         poisson: self.poisson.clone(),
+                        adapt,
                         timed: self.timed,
                     }));
                 }
@@ -241,6 +257,14 @@ impl Group {
         match &self.equal_triangles {
             None => vec![None],
             Some(counts) => counts.list().iter().copied().map(Some).collect(),
+        }
+    }
+
+    /// The adaptations asked for, or none once.
+    fn adaptations(&self) -> Vec<Option<Adapt>> {
+        match &self.adapt {
+            None => vec![None],
+            Some(adaptations) => adaptations.iter().copied().map(Some).collect(),
         }
     }
 
@@ -279,6 +303,10 @@ fn key(group: &str, cell: &Cell) -> String {
         (
             format!("/poisson={}", cell.poisson.as_deref().unwrap_or_default()),
             cell.poisson.is_some(),
+        ),
+        (
+            cell.adapt.map(|adapt| format!("/adapt={adapt}")).unwrap_or_default(),
+            cell.adapt.is_some(),
         ),
         ("/timed".into(), cell.timed),
     ] {

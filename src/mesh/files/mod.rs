@@ -2,8 +2,8 @@
 //!
 //! | ending | writes | reads | keeps |
 //! |---|---|---|---|
-//! | `.node` | `.node` and `.ele` as Triangle defines them, counted from 0 | both; counted from 0 or 1 | markers, regions |
-//! | `.vtu` | VTK unstructured grid, ASCII | ASCII; binary is refused, saying so | markers, regions |
+//! | `.node` | `.node` and `.ele` as Triangle defines them, counted from 0 | both; counted from 0 or 1 | markers, regions, a value for each point |
+//! | `.vtu` | VTK unstructured grid, ASCII | ASCII; binary is refused, saying so | markers, regions, a value for each point |
 //! | `.msh` | Gmsh 4.1, ASCII | 4.1 and 2.2, ASCII | segment markers as curves, regions as surfaces |
 //! | `.obj` | Wavefront, z = 0 | triangles and polygons as fans | geometry |
 //! | `.svg` | a drawing | – | – |
@@ -120,18 +120,75 @@ fn format_of(path: &Path, allowed: impl Fn(Format) -> bool) -> Result<Format, Me
 /// An unknown ending, or what the file system says.
 pub fn write(mesh: &Mesh, path: &Path) -> Result<(), MeshFileError> {
     let text = match format_of(path, |_| true)? {
-        Format::Triangle => {
-            let (node, ele) = (path.with_extension("node"), path.with_extension("ele"));
-            let (node_text, ele_text) = (triangle::node_text(mesh), triangle::ele_text(mesh));
-            return put(&[(&node, node_text.as_bytes()), (&ele, ele_text.as_bytes())]);
-        }
-        Format::Vtu => vtu::text(mesh),
+        Format::Triangle => return write_triangle(mesh, None, path),
+        Format::Vtu => vtu::text(mesh, None),
         Format::Gmsh => gmsh::text(mesh),
         Format::Obj => obj::text(mesh),
         Format::Svg => svg::text(mesh),
         Format::Json => json::text(mesh),
     };
     put(&[(path, text.as_bytes())])
+}
+
+/// Whether a format can carry a value for each point.
+fn has_values(format: Format) -> bool {
+    matches!(format, Format::Triangle | Format::Vtu)
+}
+
+/// Whether the ending of `path` names a format that can carry a value for each point.
+pub fn carries_values(path: &Path) -> bool {
+    Format::of(path).is_some_and(has_values)
+}
+
+/// Writes `mesh` with a value for each of its points: as attribute of a `.node`, as array `u` of a `.vtu`.
+///
+/// # Errors
+/// Another ending, or what the file system says.
+pub fn write_with_values(mesh: &Mesh, values: &[f64], path: &Path) -> Result<(), MeshFileError> {
+    match format_of(path, has_values)? {
+        Format::Triangle => write_triangle(mesh, Some(values), path),
+        _ => put(&[(path, vtu::text(mesh, Some(values)).as_bytes())]),
+    }
+}
+
+fn write_triangle(mesh: &Mesh, values: Option<&[f64]>, path: &Path) -> Result<(), MeshFileError> {
+    let (node, ele) = (path.with_extension("node"), path.with_extension("ele"));
+    let (node_text, ele_text) = (triangle::node_text(mesh, values), triangle::ele_text(mesh));
+    put(&[(&node, node_text.as_bytes()), (&ele, ele_text.as_bytes())])
+}
+
+/// Reads a mesh with a value for each of its points: the first attribute of a `.node`, the array `u` of a `.vtu`, or else its
+/// first one besides the markers.
+///
+/// # Errors
+/// As [`read`]; other formats; files without such values, or with some that are not finite.
+pub fn read_with_values(path: &Path) -> Result<(Mesh, Vec<f64>), MeshFileError> {
+    let (mesh, values, at) = match format_of(path, has_values)? {
+        Format::Triangle => {
+            let (node, ele) = (path.with_extension("node"), path.with_extension("ele"));
+            let (mut mesh, base, values) = parse(&node, triangle::parse_node_with_values)?;
+            parse(&ele, |text| triangle::parse_ele(text, &mut mesh, base))?;
+            (mesh, values, node)
+        }
+        _ => {
+            let (mesh, values) = parse(path, |text| {
+                let mesh = vtu::parse(text)?;
+                let values = vtu::values(text, mesh.points.len())?;
+                Ok((mesh, values))
+            })?;
+            (mesh, values, path.to_path_buf())
+        }
+    };
+    let fault = match values.iter().position(|value| !value.is_finite()) {
+        Some(vertex) => format!("the value of vertex {vertex} is not finite"),
+        None if values.len() == mesh.points.len() => return Ok((mesh, values)),
+        None => "it has no values at its points: a .node needs an attribute, a .vtu an array in PointData".into(),
+    };
+    Err(MeshFileError::Syntax {
+        path: at,
+        line: 1,
+        message: fault,
+    })
 }
 
 /// Reads a mesh from a file of any origin. Triangles keep their orientation; vertices no triangle uses are kept.

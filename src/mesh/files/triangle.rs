@@ -5,11 +5,12 @@ use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use std::fmt::Write;
 
-/// One line a point: index from 0, coordinates, marker.
-pub fn node_text(mesh: &Mesh) -> String {
-    let mut text = format!("{} 2 0 1\n", mesh.points.len());
+/// One line a point: index from 0, coordinates, its value where there are values, marker.
+pub fn node_text(mesh: &Mesh, values: Option<&[f64]>) -> String {
+    let mut text = format!("{} 2 {} 1\n", mesh.points.len(), u8::from(values.is_some()));
     for (k, (p, marker)) in mesh.points.iter().zip(&mesh.point_markers).enumerate() {
-        let _ = writeln!(text, "{k} {:?} {:?} {marker}", p.x, p.y); // writing to a string cannot fail
+        let value = values.map_or_else(String::new, |values| format!("{:?} ", values[k]));
+        let _ = writeln!(text, "{k} {:?} {:?} {value}{marker}", p.x, p.y); // writing to a string cannot fail
     }
     text
 }
@@ -25,6 +26,12 @@ pub fn ele_text(mesh: &Mesh) -> String {
 
 /// Points and markers, and whether indices count from 0 or from 1.
 pub fn parse_node(text: &str) -> Result<(Mesh, i64), Complaint> {
+    let (mesh, base, _) = parse_node_with_values(text)?;
+    Ok((mesh, base))
+}
+
+/// The same with the first attribute of each point, where there is one.
+pub fn parse_node_with_values(text: &str) -> Result<(Mesh, i64, Vec<f64>), Complaint> {
     let mut words = Words::new(text, 1, true);
     let count: usize = words.number("number of vertices")?;
     let dimension: usize = words.number("dimension")?;
@@ -35,6 +42,7 @@ pub fn parse_node(text: &str) -> Result<(Mesh, i64), Complaint> {
     let attributes: usize = head.next().and_then(parse).unwrap_or(0);
     let marked = head.next().and_then(parse::<usize>).unwrap_or(0) > 0;
     let mut mesh = Mesh::default();
+    let mut values = Vec::new();
     let mut base = 0;
     for k in 0..count {
         let index: i64 = words.number("vertex index")?;
@@ -45,13 +53,14 @@ pub fn parse_node(text: &str) -> Result<(Mesh, i64), Complaint> {
             return Err(words.complain(format!("vertex {index} where {} should follow", base + k as i64)));
         }
         mesh.points.push(DVec2::new(words.coordinate()?, words.coordinate()?));
-        for _ in 0..attributes {
-            words.number::<f64>("attribute")?;
+        for place in 0..attributes {
+            let value = words.number::<f64>("attribute")?;
+            values.extend((place == 0).then_some(value));
         }
         mesh.point_markers
             .push(if marked { words.number("marker")? } else { 0 });
     }
-    Ok((mesh, base))
+    Ok((mesh, base, values))
 }
 
 /// Adds the triangles and their first attribute as region; further nodes of a triangle are left out.

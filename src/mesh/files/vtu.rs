@@ -10,8 +10,11 @@ const TRIANGLE: u8 = 5;
 /// Cells of dimension 0 and 1, which are passed over: vertex, poly-vertex, line, poly-line.
 const LOWER: [u8; 4] = [1, 2, 3, 4];
 
-/// Points with `marker`, triangles with `region`.
-pub fn text(mesh: &Mesh) -> String {
+/// The name of the array that carries a value for each point.
+const VALUES: &str = "u";
+
+/// Points with `marker`, and [`VALUES`] where there are some, triangles with `region`.
+pub fn text(mesh: &Mesh, values: Option<&[f64]>) -> String {
     let mut text = format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
          <UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
@@ -49,6 +52,11 @@ pub fn text(mesh: &Mesh) -> String {
         mesh.point_markers.iter(),
         |text, marker| write!(text, "{marker}"),
     );
+    if let Some(values) = values {
+        array(&mut text, VALUES, "Float64", values.iter(), |text, value| {
+            write!(text, "{value:?}")
+        });
+    }
     text.push_str("</PointData>\n<CellData Scalars=\"region\">\n");
     array(&mut text, "region", "Float64", mesh.regions.iter(), |text, region| {
         write!(text, "{region:?}")
@@ -143,6 +151,17 @@ pub fn parse(text: &str) -> Result<Mesh, Complaint> {
         None => vec![0.0; mesh.triangles.len()],
     };
     Ok(mesh)
+}
+
+/// A value for each of `count` points: of the array [`VALUES`], or else of the first one besides the markers.
+pub fn values(text: &str, count: usize) -> Result<Vec<f64>, Complaint> {
+    let arrays = arrays(text);
+    let mut of_points = arrays.iter().filter(|array| array.section == "PointData");
+    let named = of_points.clone().find(|array| array.name == VALUES);
+    match named.or_else(|| of_points.find(|array| array.name != "marker")) {
+        Some(array) => numbers(array, count),
+        None => Ok(Vec::new()),
+    }
 }
 
 fn numbers(array: &Array, count: usize) -> Result<Vec<f64>, Complaint> {
