@@ -12,6 +12,14 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A number between 0 and 1.
+pub fn share(text: &str) -> Result<f64, String> {
+    match fraction(text) {
+        Some(value) if 0.0 < value && value < 1.0 => Ok(value),
+        _ => Err("write a number between 0 and 1, such as 0.05".into()),
+    }
+}
+
 /// A number of bytes: `500M`, `4G`, `1000000`.
 pub fn bytes(text: &str) -> Result<u64, String> {
     let lower = text.trim().to_ascii_lowercase();
@@ -47,6 +55,10 @@ mod tests {
         assert_eq!(positive(" 2 "), Ok(2.0));
         for bad in ["0", "-1", "1/0", "nan", "a", "1/-2", ""] {
             assert!(positive(bad).is_err(), "{bad}");
+        }
+        assert_eq!(share("1/20"), Ok(0.05));
+        for bad in ["0", "1", "2", "-0.1", "nan"] {
+            assert!(share(bad).is_err(), "{bad}");
         }
         assert_eq!(bytes("4G"), Ok(4_000_000_000));
         assert_eq!(bytes("1.5 kB"), Ok(1500));

@@ -229,13 +229,14 @@ impl Store {
             });
         };
         let refused = told(&site.domain);
-        let spacing = spacing::limit(
-            base.spacing.clone(),
-            &site.domain,
-            alpha,
-            self.options(cell, alpha).limit_factor,
-        )
-        .map_err(&refused)?;
+        let spacing = match cell.background {
+            Some(error) => spacing::background(base.spacing.clone(), &site.domain, alpha, error),
+            None => {
+                let factor = self.options(cell, alpha).limit_factor;
+                spacing::limit(base.spacing.clone(), &site.domain, alpha, factor)
+            }
+        };
+        let spacing = spacing.map_err(&refused)?;
         let integral = spacing::integrate(&*spacing, &site.domain, INTEGRAL_ERROR).map_err(&refused)?;
         Ok(Prepared {
             site,

@@ -5,6 +5,7 @@
 
 mod adapt;
 mod angles;
+mod background;
 mod battery;
 mod claims;
 mod corners;

@@ -2,6 +2,7 @@
 
 use super::adapt;
 use super::angles;
+use super::background::background_findings;
 use super::claims;
 use super::corners;
 use super::duels;
@@ -127,6 +128,7 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
         .into_iter()
         .flatten()
         .chain(rules::rule_findings(rows))
+        .chain(background_findings(rows))
         .chain(compared)
         .chain(ranks::rank_finding(rows))
         .chain(claims.into_iter().flatten());
