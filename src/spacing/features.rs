@@ -1,6 +1,6 @@
 //! The features of a PSLG, vertices and segments, and the smallest disk that meets two that are not incident.
 
-use super::shortlist::{Items, View};
+use super::items::{Items, View};
 use crate::geometry::DVec2;
 
 /// Distances kept on the stack; longer lists occur only while the lists are built, and at vertices of huge degree.

@@ -14,7 +14,8 @@
 //! names the geodesic variant).
 
 use super::features::{Feature, Features};
-use super::shortlist::{Items, Shortlists};
+use super::items::Items;
+use super::shortlist::Shortlists;
 use super::{Spacing, SpacingError};
 use crate::geometry::tolerance::RESOLUTION;
 use crate::geometry::{DVec2, Rect};

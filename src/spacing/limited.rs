@@ -3,7 +3,8 @@
 
 use super::Spacing;
 use super::cover::DEPTH;
-use super::shortlist::{Items, Shortlists, View};
+use super::items::{Items, View};
+use super::shortlist::Shortlists;
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
 use std::ops::Range;

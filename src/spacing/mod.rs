@@ -26,6 +26,7 @@ mod gradient_limit;
 mod grammar;
 mod hessian;
 mod integral;
+mod items;
 mod jet;
 mod lfs;
 #[cfg(test)]

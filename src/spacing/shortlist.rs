@@ -17,20 +17,13 @@
 //! # Cost
 //! About (items) × (depth) × (overlap) to build; a query is a walk of `depth` steps and one short list.
 
+use super::items::{Items, View};
 use crate::geometry::tolerance::SHORTLIST;
 use crate::geometry::{DVec2, Rect};
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// Deepest tree: cells 2⁻⁴⁰ of the root, finer than coordinates can tell apart in practice.
 const DEPTH: usize = 40;
-
-/// [`Items::finest`] of features. Meshes and integrals ask a few times in such a cell where spacing follows lfs: a shorter list
-/// would take longer to make than it saves.
-const FINEST: f64 = 1.0 / 32.0;
-
-/// [`Items::short`] of features.
-const SHORT: usize = 16;
 
 /// A cell smaller than the function there is not split once so many levels in turn have each left out under 1 /
 /// [`PROGRESS`] of the list: what is incident to all that is near, as the segments of a fan at its vertex, stays on it
@@ -42,79 +35,6 @@ const PROGRESS: usize = 8;
 
 /// The tree is cut into so many subtrees at least, which are built side by side.
 const SUBTREES: usize = 256;
-
-/// What decides a function: convex sets, each with a value that rises with the distance from it.
-pub trait Items: Sync {
-    /// The function at `x` if the items in `list` are all there are, and the items that decide it: one twice, or two.
-    fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]);
-
-    /// An item as seen from `x`.
-    fn view(&self, item: u32, x: DVec2) -> View;
-
-    /// α: by how much values rise with distance.
-    fn slope(&self) -> f64;
-
-    /// What stands for an item in a cell that is small against it: items of which each has a value no lower.
-    fn parts(&self, _item: u32, _cell: &Rect) -> Option<Range<u32>> {
-        None
-    }
-
-    /// Whether an item stands for itself alone.
-    fn is_single(&self, _item: u32) -> bool {
-        true
-    }
-
-    /// Whether the function is ever asked for in a cell: the list of another is empty.
-    fn is_asked_in(&self, _cell: &Rect) -> bool {
-        true
-    }
-
-    /// A cell is not split once its radius is below this share of the function at its centre.
-    fn finest(&self) -> f64 {
-        FINEST
-    }
-
-    /// A list this short is not worth splitting.
-    fn short(&self) -> usize {
-        SHORT
-    }
-}
-
-/// An item K as seen from a point x.
-#[derive(Clone, Copy, Debug)]
-pub struct View {
-    /// Its value there.
-    pub value: f64,
-    /// dist(x, K).
-    pub distance: f64,
-    /// ∇ dist: the unit vector away from K, 0 inside K.
-    pub away: DVec2,
-}
-
-impl View {
-    /// The view over `offset`, which leads from the point of K nearest to x to x, of an item that has `lowest` on K.
-    pub fn new(offset: DVec2, lowest: f64, slope: f64) -> Self {
-        let distance = offset.length();
-        let away = if distance > 0.0 { offset / distance } else { DVec2::ZERO };
-        Self {
-            value: lowest + slope * distance,
-            distance,
-            away,
-        }
-    }
-
-    /// By how much the distance to `other` may gain on the distance to this one within `radius`.
-    pub fn margin(&self, other: &Self, radius: f64) -> f64 {
-        let turn = |view: &Self| {
-            if view.distance > radius {
-                0.5 * radius * radius / (view.distance - radius)
-            } else {
-                f64::INFINITY
-            }
-        };
-        (radius * self.away.distance(other.away) + turn(self) + turn(other)).min(2.0 * radius)
-    }
-}
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -419,7 +339,7 @@ mod tests {
     fn no_tree_is_deeper_than_coordinates_can_be_told_apart() {
         let place =
             |k: usize| DVec2::splat(1.0 / 3.0) + 4.0 * f64::EPSILON * DVec2::new((k % 8) as f64, (k / 8) as f64);
-        let features = vertices((0..2 * SHORT).map(place));
+        let features = vertices((0..32).map(place));
         let all: Vec<u32> = (0..features.len() as u32).collect();
         let lists = Shortlists::new(&features, &all, rect((-1.0, -1.0), (1.0, 1.0)));
         assert_eq!(leaves(&lists).iter().map(|(_, depth, _)| *depth).max(), Some(DEPTH));
