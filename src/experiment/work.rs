@@ -79,6 +79,7 @@ pub fn tasks<E>(
             cell.spacing.as_str(),
             cell.lfs_cap,
             cell.adapted_by(),
+            cell.background.map(f64::to_bits),
             alpha.map(f64::to_bits),
             cell.timed,
         );
