@@ -239,6 +239,16 @@ mod tests {
     }
 
     #[test]
+    fn a_background_is_another_spacing() {
+        let mut cells = vec![planned("background", 0.25, 1.0, fifo()); 2];
+        cells[1].cell.background = Some(0.05);
+        assert_eq!(
+            gathered(&cells, 1.0),
+            [(Some(0.25), vec![vec![0]]), (Some(0.25), vec![vec![1]])]
+        );
+    }
+
+    #[test]
     fn shards_share_all_tasks() {
         let shards: Vec<Shard> = ["1/3", "2/3", "3/3"]
             .iter()
