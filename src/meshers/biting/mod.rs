@@ -65,7 +65,7 @@ mod gap;
 mod interior;
 mod notches;
 mod order;
-mod rule;
+pub mod rule;
 #[cfg(test)]
 mod tests;
 mod watch;
