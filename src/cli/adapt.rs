@@ -12,7 +12,7 @@ use crate::experiment::record::Cell;
 use crate::experiment::runner;
 use crate::fem::{self, PROBLEMS, Problem};
 use crate::mesh::files;
-use crate::meshers::{Budget, MeshError, Request};
+use crate::meshers::{MeshError, Request};
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 
@@ -47,20 +47,14 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let targets = arguments
-        .out
-        .iter()
-        .map(|text| Target::parse(text))
-        .collect::<Result<Vec<_>, _>>()?;
+    let targets = Target::parse_all(&arguments.out)?;
     let cell = arguments.cell()?;
     let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
     let store = Store::new(None, false);
     let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
     let request = Request {
-        c_b: cell.c_b,
         seed: cell.seed,
-        threads: 1,
-        budget: Budget::default(),
+        ..Request::new(cell.c_b)
     };
     let run = measure::run(&prepared, &*mesher, &request).map_err(|error| match error {
         MeshError::Declined(_) => Failure::Declined(error.to_string()),

@@ -52,11 +52,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    let targets = arguments
-        .out
-        .iter()
-        .map(|text| Target::parse(text))
-        .collect::<Result<Vec<_>, _>>()?;
+    let targets = Target::parse_all(&arguments.out)?;
     if let Some(both) = arguments
         .out
         .iter()

@@ -61,6 +61,11 @@ impl Target {
             ))),
         }
     }
+
+    /// All of them.
+    pub fn parse_all(texts: &[String]) -> Result<Vec<Self>, Failure> {
+        texts.iter().map(|text| Self::parse(text)).collect()
+    }
 }
 
 /// The name that stands for standard output.

@@ -1,14 +1,26 @@
-//! A static index over boxes: which lie near a point, the nearer ones first, and which meet a box.
+//! A static index over things with boxes: which lie near a point, the nearer ones first, and which meet a box.
 //!
 //! A balanced binary tree, built once by median splits and walked without allocating: a query costs O(log n) and what it finds.
 
 use super::{DVec2, Rect};
 
-/// Boxes in a leaf; about where one more costs as much as one more node.
+/// Things in a leaf; about where one more costs as much as one more node.
 const LEAF: usize = 4;
 
-/// Deepest tree: median splits halve, so 2^48 boxes would fit.
+/// Deepest tree: median splits halve, so 2^48 things would fit.
 const DEPTH: usize = 48;
+
+/// What has a box around it.
+pub trait Boxed {
+    /// The smallest box around it.
+    fn bounds(&self) -> Rect;
+}
+
+impl Boxed for Rect {
+    fn bounds(&self) -> Rect {
+        *self
+    }
+}
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -20,17 +32,17 @@ struct Node {
     second: u32,
 }
 
-/// An index over boxes; queries answer with positions in the order in which they were given.
+/// An index over things with boxes; queries answer with positions in the order in which they were given.
 #[derive(Clone, Debug, Default)]
-pub struct BoxTree {
+pub struct BoxTree<T = Rect> {
     nodes: Vec<Node>,
-    items: Vec<(Rect, u32)>,
+    items: Vec<(T, u32)>,
 }
 
-impl BoxTree {
-    /// Indexes `boxes`. O(n log n).
-    pub fn new(boxes: impl IntoIterator<Item = Rect>) -> Self {
-        let items: Vec<(Rect, u32)> = boxes.into_iter().zip(0..).collect();
+impl<T: Boxed> BoxTree<T> {
+    /// Indexes `things`. O(n log n).
+    pub fn new(things: impl IntoIterator<Item = T>) -> Self {
+        let items: Vec<(T, u32)> = things.into_iter().zip(0..).collect();
         let mut tree = Self {
             nodes: Vec::with_capacity(items.len()),
             items,
@@ -41,9 +53,19 @@ impl BoxTree {
         tree
     }
 
+    /// How many things are indexed.
+    pub fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+
     fn split(&mut self, from: usize, to: usize) {
-        let corners = self.items[from..to].iter().flat_map(|(rect, _)| [rect.min, rect.max]);
-        let bounds = Rect::around(corners);
+        let boxes = self.items[from..to].iter().map(|item| item.0.bounds());
+        let bounds = Rect::around(boxes.flat_map(|rect| [rect.min, rect.max]));
         let node = self.nodes.len();
         let is_leaf = to - from <= LEAF;
         let range = if is_leaf { [from as u32, to as u32] } else { [0, 0] };
@@ -58,7 +80,10 @@ impl BoxTree {
         }
         let axis = usize::from(bounds.size().y > bounds.size().x);
         let middle = from + (to - from) / 2;
-        let key = |item: &(Rect, u32)| item.0.min[axis] + item.0.max[axis];
+        let key = |item: &(T, u32)| {
+            let rect = item.0.bounds();
+            rect.min[axis] + rect.max[axis]
+        };
         // The position breaks ties, so that the tree does not depend on the selection algorithm.
         self.items[from..to]
             .select_nth_unstable_by(middle - from, |a, b| key(a).total_cmp(&key(b)).then(a.1.cmp(&b.1)));
@@ -67,59 +92,82 @@ impl BoxTree {
         self.split(middle, to);
     }
 
-    /// Visits the boxes within `reach` of `x`, roughly the nearer ones first; `visit` gives the reach from then on.
-    pub fn near(&self, x: DVec2, mut reach: f64, mut visit: impl FnMut(usize) -> f64) {
+    /// Walks the tree depth first, entering the boxes that `enter` accepts at the time they are reached.
+    pub fn walk<S>(&self, state: &mut S, enter: impl Fn(&S, &Rect) -> bool, visit: impl Fn(&mut S, &T, usize)) {
         let mut stack = [0u32; DEPTH];
         let mut height = usize::from(!self.nodes.is_empty());
         while height > 0 {
             height -= 1;
             let at = stack[height];
             let node = &self.nodes[at as usize];
-            if node.bounds.distance(x) > reach {
+            if !enter(state, &node.bounds) {
                 continue;
             }
             if node.from < node.to {
-                for (rect, id) in &self.items[node.from as usize..node.to as usize] {
-                    if rect.distance(x) <= reach {
-                        reach = visit(*id as usize);
-                    }
+                for (item, id) in &self.items[node.from as usize..node.to as usize] {
+                    visit(state, item, *id as usize);
                 }
+            } else {
+                stack[height] = node.second;
+                stack[height + 1] = at + 1;
+                height += 2;
+            }
+        }
+    }
+
+    /// Calls `visit` with what is at most `reach` from `x` by `distance`, which is at least that of its box, and with that distance,
+    /// about the nearest first; it answers with the reach from then on.
+    pub fn nearest_first(
+        &self,
+        x: DVec2,
+        mut reach: f64,
+        distance: impl Fn(&T) -> f64,
+        mut visit: impl FnMut(usize, f64) -> f64,
+    ) {
+        let mut stack = [(0u32, 0.0); DEPTH];
+        let mut height = usize::from(!self.nodes.is_empty());
+        while height > 0 {
+            height -= 1;
+            let (at, away) = stack[height];
+            if away > reach {
                 continue;
             }
-            let (first, second) = (at + 1, node.second);
-            let distance = |child: u32| self.nodes[child as usize].bounds.distance(x);
-            let is_first_nearer = distance(first) <= distance(second);
-            (stack[height], stack[height + 1]) = if is_first_nearer {
-                (second, first)
+            let node = &self.nodes[at as usize];
+            if node.from < node.to {
+                for (item, id) in &self.items[node.from as usize..node.to as usize] {
+                    let distance = distance(item);
+                    if distance <= reach {
+                        reach = visit(*id as usize, distance);
+                    }
+                }
             } else {
-                (first, second)
-            };
-            height += 2;
+                let children = [at + 1, node.second].map(|c| (c, self.nodes[c as usize].bounds.distance(x)));
+                let nearer = usize::from(children[1].1 < children[0].1);
+                stack[height] = children[1 - nearer];
+                stack[height + 1] = children[nearer];
+                height += 2;
+            }
         }
+    }
+}
+
+impl BoxTree {
+    /// Visits the boxes within `reach` of `x`, roughly the nearer ones first; `visit` gives the reach from then on.
+    pub fn near(&self, x: DVec2, reach: f64, mut visit: impl FnMut(usize) -> f64) {
+        self.nearest_first(x, reach, |rect| rect.distance(x), |id, _| visit(id));
     }
 
     /// Visits the boxes that have a point in common with `cell`.
     pub fn meeting(&self, cell: Rect, mut visit: impl FnMut(usize)) {
-        let meets = |rect: &Rect| rect.min.cmple(cell.max).all() && rect.max.cmpge(cell.min).all();
-        let mut stack = [0u32; DEPTH];
-        let mut height = usize::from(!self.nodes.is_empty());
-        while height > 0 {
-            height -= 1;
-            let at = stack[height];
-            let node = &self.nodes[at as usize];
-            if !meets(&node.bounds) {
-                continue;
-            }
-            if node.from < node.to {
-                let own = &self.items[node.from as usize..node.to as usize];
-                own.iter()
-                    .filter(|(rect, _)| meets(rect))
-                    .for_each(|(_, id)| visit(*id as usize));
-            } else {
-                (stack[height], stack[height + 1]) = (node.second, at + 1);
-                height += 2;
-            }
-        }
+        self.walk(
+            &mut visit,
+            |_, node| node.meets(cell),
+            |visit, rect, id| {
+                if rect.meets(cell) {
+                    visit(id);
+                }
+            },
+        );
     }
 }
 

@@ -76,6 +76,11 @@ impl Rect {
         x.cmpge(self.min).all() && x.cmple(self.max).all()
     }
 
+    /// Whether the two closed boxes have a point in common.
+    pub fn meets(self, other: Self) -> bool {
+        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
     /// The four quarters: lower left, lower right, upper left, upper right.
     pub fn quarters(self) -> [Self; 4] {
         let centre = self.centre();

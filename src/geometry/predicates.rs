@@ -16,6 +16,12 @@ pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     robust::orient2d(coord(a), coord(b), coord(c))
 }
 
+/// Whether the closed counter-clockwise triangle holds `x`, decided exactly.
+#[inline]
+pub fn triangle_holds([a, b, c]: [DVec2; 3], x: DVec2) -> bool {
+    orient2d(a, b, x) >= 0.0 && orient2d(b, c, x) >= 0.0 && orient2d(c, a, x) >= 0.0
+}
+
 /// Positive where `d` lies inside the circle through the counter-clockwise triangle `a`, `b`, `c`; 0 exactly on it.
 pub fn in_circle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> f64 {
     robust::incircle(coord(a), coord(b), coord(c), coord(d))

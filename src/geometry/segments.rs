@@ -1,17 +1,11 @@
 //! A static index over segments: which meet a box, which is nearest to a point, which a ray hits first.
 //!
-//! A balanced binary tree of bounding boxes, built once by median splits and walked without allocating, so that every
-//! query costs O(log n) plus what it finds, however unevenly the segments are spread. [`SegmentIndex::right_of`] is
-//! exact; it is what faces, nesting and inside tests stand on.
+//! A [`BoxTree`] of segments, so that every query costs O(log n) plus what it finds, however unevenly they are spread.
+//! [`SegmentIndex::right_of`] is exact; it is what faces, nesting and inside tests stand on.
 
+use super::boxes::{BoxTree, Boxed};
 use super::predicates::orient2d;
 use super::{DVec2, Rect};
-
-/// Segments in a leaf; about where testing one more segment costs as much as one more box.
-const LEAF: usize = 4;
-
-/// Deepest tree: median splits halve, so 2^48 segments would fit.
-const DEPTH: usize = 48;
 
 /// The point of the closed segment between `ends` nearest to `x`.
 pub fn closest_on_segment(ends: [DVec2; 2], x: DVec2) -> DVec2 {
@@ -41,113 +35,51 @@ pub enum Seen {
     Nothing,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    bounds: Rect,
-    /// Range in `items` of a leaf; `from == to` marks an inner node, whose first child follows it.
-    from: u32,
-    to: u32,
-    /// Second child of an inner node.
-    second: u32,
-}
+/// A segment by its two ends.
+type Ends = [DVec2; 2];
 
-#[derive(Clone, Copy, Debug)]
-struct Item {
-    ends: [DVec2; 2],
-    id: u32,
+impl Boxed for Ends {
+    fn bounds(&self) -> Rect {
+        let [a, b] = *self;
+        Rect {
+            min: a.min(b),
+            max: a.max(b),
+        }
+    }
 }
 
 /// A static index over segments given by their two ends.
 #[derive(Clone, Debug, Default)]
 pub struct SegmentIndex {
-    nodes: Vec<Node>,
-    items: Vec<Item>,
+    tree: BoxTree<Ends>,
 }
 
 impl SegmentIndex {
     /// Indexes `segments`; queries answer with positions in this order. O(n log n).
     pub fn new(segments: impl IntoIterator<Item = [DVec2; 2]>) -> Self {
-        let items: Vec<Item> = segments
-            .into_iter()
-            .zip(0..)
-            .map(|(ends, id)| Item { ends, id })
-            .collect();
-        let mut index = Self {
-            nodes: Vec::with_capacity(items.len()),
-            items,
-        };
-        if !index.items.is_empty() {
-            index.split(0, index.items.len());
-        }
-        index
+        let tree = BoxTree::new(segments);
+        Self { tree }
     }
 
     /// How many segments are indexed.
     pub fn len(&self) -> usize {
-        self.items.len()
+        self.tree.len()
     }
 
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
-        self.items.is_empty()
-    }
-
-    fn split(&mut self, from: usize, to: usize) {
-        let bounds = Rect::around(self.items[from..to].iter().flat_map(|item| item.ends));
-        let node = self.nodes.len();
-        let is_leaf = to - from <= LEAF;
-        self.nodes.push(Node {
-            bounds,
-            from: if is_leaf { from as u32 } else { 0 },
-            to: if is_leaf { to as u32 } else { 0 },
-            second: 0,
-        });
-        if is_leaf {
-            return;
-        }
-        let axis = usize::from(bounds.size().y > bounds.size().x);
-        let middle = from + (to - from) / 2;
-        let key = |item: &Item| item.ends[0][axis] + item.ends[1][axis];
-        // The id breaks ties, so that the tree does not depend on the selection algorithm.
-        self.items[from..to]
-            .select_nth_unstable_by(middle - from, |l, r| key(l).total_cmp(&key(r)).then(l.id.cmp(&r.id)));
-        self.split(from, middle);
-        self.nodes[node].second = self.nodes.len() as u32;
-        self.split(middle, to);
-    }
-
-    /// Walks the tree depth first, entering the boxes that `enter` accepts at the time they are reached.
-    fn walk<S>(&self, state: &mut S, enter: impl Fn(&S, &Rect) -> bool, visit: impl Fn(&mut S, &Item)) {
-        let mut stack = [0u32; DEPTH];
-        let mut height = usize::from(!self.nodes.is_empty());
-        while height > 0 {
-            height -= 1;
-            let at = stack[height];
-            let node = &self.nodes[at as usize];
-            if !enter(state, &node.bounds) {
-                continue;
-            }
-            if node.from < node.to {
-                for item in &self.items[node.from as usize..node.to as usize] {
-                    visit(state, item);
-                }
-            } else {
-                stack[height] = node.second;
-                stack[height + 1] = at + 1;
-                height += 2;
-            }
-        }
+        self.tree.is_empty()
     }
 
     /// Calls `visit` with every segment that meets the closed box, decided exactly; in no particular order.
     pub fn in_box(&self, bounds: Rect, visit: impl FnMut(usize)) {
         let mut visit = visit;
-        self.walk(
+        self.tree.walk(
             &mut visit,
-            |_, node| overlap(node, &bounds),
-            |visit, item| {
-                if meets_box(item.ends, &bounds) {
-                    visit(item.id as usize);
+            |_, node| node.meets(bounds),
+            |visit, ends, id| {
+                if meets_box(*ends, &bounds) {
+                    visit(id);
                 }
             },
         );
@@ -156,13 +88,13 @@ impl SegmentIndex {
     /// Calls `visit` with every segment at most `radius` from `x` and its distance; in no particular order.
     pub fn within(&self, x: DVec2, radius: f64, visit: impl FnMut(usize, f64)) {
         let mut visit = visit;
-        self.walk(
+        self.tree.walk(
             &mut visit,
             |_, node| node.distance(x) <= radius,
-            |visit, item| {
-                let distance = closest_on_segment(item.ends, x).distance(x);
+            |visit, ends, id| {
+                let distance = closest_on_segment(*ends, x).distance(x);
                 if distance <= radius {
-                    visit(item.id as usize, distance);
+                    visit(id, distance);
                 }
             },
         );
@@ -188,32 +120,9 @@ impl SegmentIndex {
 
     /// Calls `visit` with segments at most `reach` from `x` and their distances, about the nearest first; it answers with
     /// the reach from then on.
-    pub fn nearest_first(&self, x: DVec2, reach: f64, mut visit: impl FnMut(usize, f64) -> f64) {
-        let mut reach = reach;
-        let mut stack = [(0u32, 0.0); DEPTH];
-        let mut height = usize::from(!self.nodes.is_empty());
-        while height > 0 {
-            height -= 1;
-            let (at, distance) = stack[height];
-            if distance > reach {
-                continue;
-            }
-            let node = &self.nodes[at as usize];
-            if node.from < node.to {
-                for item in &self.items[node.from as usize..node.to as usize] {
-                    let distance = closest_on_segment(item.ends, x).distance(x);
-                    if distance <= reach {
-                        reach = visit(item.id as usize, distance);
-                    }
-                }
-            } else {
-                let children = [at + 1, node.second].map(|c| (c, self.nodes[c as usize].bounds.distance(x)));
-                let nearer = usize::from(children[1].1 < children[0].1);
-                stack[height] = children[1 - nearer];
-                stack[height + 1] = children[nearer];
-                height += 2;
-            }
-        }
+    pub fn nearest_first(&self, x: DVec2, reach: f64, visit: impl FnMut(usize, f64) -> f64) {
+        let distance = |ends: &Ends| closest_on_segment(*ends, x).distance(x);
+        self.tree.nearest_first(x, reach, distance, visit);
     }
 
     /// What `x` sees along +x, decided exactly for segments that do not cross.
@@ -226,36 +135,36 @@ impl SegmentIndex {
 
     /// What `x` sees along +x among the segments that `accept` takes.
     pub fn right_of_where(&self, x: DVec2, accept: impl Fn(usize) -> bool) -> Seen {
-        let mut state: (Option<Item>, Option<usize>) = (None, None);
-        self.walk(
+        let mut state: (Option<(Ends, usize)>, Option<usize>) = (None, None);
+        self.tree.walk(
             &mut state,
             |(first, on), node| {
                 on.is_none()
                     && node.min.y <= x.y
                     && x.y <= node.max.y
                     && x.x <= node.max.x
-                    && first.is_none_or(|item| node.min.x <= item.ends[0].x.max(item.ends[1].x))
+                    && first.is_none_or(|([a, b], _)| node.min.x <= a.x.max(b.x))
             },
-            |(first, on), item| {
-                let [a, b] = item.ends;
+            |(first, on), ends, id| {
+                let [a, b] = *ends;
                 if a.x.max(b.x) < x.x || (x.y < a.y && x.y < b.y) || (x.y > a.y && x.y > b.y) {
                     return;
                 }
-                if !accept(item.id as usize) {
+                if !accept(id) {
                     return;
                 }
                 let [low, high] = if a.y <= b.y { [a, b] } else { [b, a] };
                 let side = orient2d(low, high, x);
                 if side == 0.0 && a.x.min(b.x) <= x.x {
-                    *on = Some(item.id as usize);
-                } else if side > 0.0 && x.y < high.y && first.is_none_or(|known| is_before(item.ends, known.ends)) {
-                    *first = Some(*item);
+                    *on = Some(id);
+                } else if side > 0.0 && x.y < high.y && first.is_none_or(|(known, _)| is_before(*ends, known)) {
+                    *first = Some((*ends, id));
                 }
             },
         );
         match state {
             (_, Some(on)) => Seen::On(on),
-            (Some(item), None) => Seen::Segment(item.id as usize, item.ends[0].y < item.ends[1].y),
+            (Some(([a, b], id)), None) => Seen::Segment(id, a.y < b.y),
             (None, None) => Seen::Nothing,
         }
     }
@@ -264,7 +173,7 @@ impl SegmentIndex {
     /// far along as a multiple of `direction`. Rounded arithmetic: for choosing points, not for deciding signs.
     pub fn first_hit(&self, origin: DVec2, direction: DVec2, accept: impl Fn(usize) -> bool) -> Option<(usize, f64)> {
         let mut best: Option<(usize, f64)> = None;
-        self.walk(
+        self.tree.walk(
             &mut best,
             |best, node| {
                 let to = if let Some((_, share)) = best {
@@ -274,14 +183,13 @@ impl SegmentIndex {
                 };
                 ray_meets_box(origin, direction, to, node)
             },
-            |best, item| {
-                let [a, b] = item.ends;
+            |best, ends, id| {
+                let [a, b] = *ends;
                 let along = b - a;
                 let cross = direction.perp_dot(along);
                 let share = (a - origin).perp_dot(along) / cross;
                 let other = (a - origin).perp_dot(direction) / cross;
                 let hit = cross != 0.0 && share >= 0.0 && (0.0..=1.0).contains(&other);
-                let id = item.id as usize;
                 if hit
                     && best.is_none_or(|(known, least)| share < least || (share == least && id < known))
                     && accept(id)
@@ -315,19 +223,9 @@ fn is_before(first: [DVec2; 2], second: [DVec2; 2]) -> bool {
     left > 0.0
 }
 
-fn overlap(a: &Rect, b: &Rect) -> bool {
-    a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
-}
-
 /// Whether a closed segment and a closed box meet: neither the axes nor the segment's normal separate them.
 pub(crate) fn meets_box([a, b]: [DVec2; 2], bounds: &Rect) -> bool {
-    if !overlap(
-        &Rect {
-            min: a.min(b),
-            max: a.max(b),
-        },
-        bounds,
-    ) {
+    if ![a, b].bounds().meets(*bounds) {
         return false;
     }
     if bounds.contains(a) || bounds.contains(b) {

@@ -375,27 +375,3 @@ fn circles_that_meet_low_are_a_hypothesis_on_whole_segments_and_a_fault_on_cut_o
     let check = certificate.check("boundary-height").unwrap();
     assert!(!check.holds && check.broken == 2 && check.applies, "{check:?}");
 }
-
-#[test]
-fn angles_at_a_corner_are_held_against_the_smallest_input_angle_there() {
-    // Half of an equilateral triangle: input angles of 30°, 60° and 90°.
-    let half = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0 / 3f64.sqrt())];
-    let domain = domain(&half, &[]);
-    let corner = |points: &[DVec2], triangles: &[[u32; 3]]| {
-        let (_, certificate) = judge(&domain, &mesh(points, triangles), Some(&bounds(&UNIFORM, 0.3)));
-        certificate.check("corner-angles").unwrap().clone()
-    };
-    let whole = corner(&half, &[[0, 1, 2]]);
-    assert!(
-        whole.holds && whole.applies && (whole.worst.unwrap() - 1.0).abs() < 1e-12,
-        "{whole:?}"
-    );
-    let split = corner(
-        &[half[0], half[1], half[2], p(1.0, (15f64).to_radians().tan())],
-        &[[0, 1, 3], [0, 3, 2]],
-    );
-    assert!(
-        !split.holds && split.broken == 2 && (split.worst.unwrap() - 0.5).abs() < 1e-12,
-        "{split:?}"
-    );
-}

@@ -26,11 +26,6 @@ pub trait Items: Sync {
         None
     }
 
-    /// Whether an item stands for itself alone.
-    fn is_single(&self, _item: u32) -> bool {
-        true
-    }
-
     /// Whether the function is ever asked for in a cell: the list of another is empty.
     fn is_asked_in(&self, _cell: &Rect) -> bool {
         true

@@ -94,35 +94,28 @@ impl Lfs {
                 other: [vertices[0]; 2],
             },
         };
-        let mut lowest = (f64::INFINITY, vertices[0]);
-        for &vertex in vertices {
-            let value = lfs.at(vertex);
-            if value < lowest.0 {
-                lowest = (value, vertex);
-            }
-        }
-        if lowest.0.is_infinite() {
+        lfs.narrowest = lfs.lowest(vertices)?;
+        Ok(lfs)
+    }
+
+    /// Where lfs is smallest among the vertices, if it can be resolved there.
+    fn lowest(&self, vertices: &[DVec2]) -> Result<Narrowest, SpacingError> {
+        let values = vertices.iter().map(|&vertex| (self.at(vertex), vertex));
+        let lower = |lowest: (f64, DVec2), next: (f64, DVec2)| if next.0 < lowest.0 { next } else { lowest };
+        let (value, at) = values.fold((f64::INFINITY, vertices[0]), lower);
+        let (x, y) = (at.x, at.y);
+        if value.is_infinite() {
             return Err(SpacingError::NoFeatures);
         }
-        if lowest.0 <= 0.0 {
-            return Err(SpacingError::NotPositive {
-                value: 0.0,
-                x: lowest.1.x,
-                y: lowest.1.y,
-            });
+        if value <= 0.0 {
+            return Err(SpacingError::NotPositive { value: 0.0, x, y });
         }
-        if lowest.0 < RESOLUTION * bounds.largest_coordinate() {
-            return Err(SpacingError::Unresolved {
-                value: lowest.0,
-                x: lowest.1.x,
-                y: lowest.1.y,
-            });
+        if value < RESOLUTION * Rect::around(vertices.iter().copied()).largest_coordinate() {
+            return Err(SpacingError::Unresolved { value, x, y });
         }
-        let (value, at) = lowest;
-        let list = lfs.lists.at(at).unwrap_or_default();
-        let other = lfs.features.ends(lfs.features.decide(list, at).1[1]);
-        lfs.narrowest = Narrowest { value, at, other };
-        Ok(lfs)
+        let list = self.lists.at(at).unwrap_or_default();
+        let other = self.features.ends(self.features.decide(list, at).1[1]);
+        Ok(Narrowest { value, at, other })
     }
 
     /// The largest lower bound of lfs on the whole plane: inf lfs = ½ min over vertices v of lfs(v).

@@ -172,10 +172,6 @@ impl Items for Terms<'_> {
         is_large.then(|| branch.first..branch.first + branch.parts)
     }
 
-    fn is_single(&self, item: u32) -> bool {
-        self.limited.branches[item as usize].parts == 0
-    }
-
     fn is_asked_in(&self, cell: &Rect) -> bool {
         let centre = cell.centre();
         let is_near = |(_, distance): (usize, f64)| distance <= 0.5 * cell.diagonal();

@@ -4,7 +4,7 @@
 //! its nearest point.
 
 use crate::geometry::boxes::BoxTree;
-use crate::geometry::predicates::orient2d;
+use crate::geometry::predicates::{orient2d, triangle_holds};
 use crate::geometry::segments::closest_on_segment;
 use crate::geometry::{DVec2, Rect};
 use crate::mesh::{Adjacency, Mesh};
@@ -79,7 +79,7 @@ impl OldMesh {
     pub fn holding(&self, x: DVec2, mut visit: impl FnMut(usize, DVec2)) {
         let mut is_held = false;
         self.tree.near(x, 0.0, |t| {
-            if holds(self.corners(t), x) {
+            if triangle_holds(self.corners(t), x) {
                 is_held = true;
                 visit(t, x);
             }
@@ -119,7 +119,7 @@ impl OldMesh {
         let mut away = f64::INFINITY;
         self.tree.near(cell.centre(), f64::INFINITY, |t| {
             let corners = self.corners(t);
-            let distance = match holds(corners, cell.centre()) {
+            let distance = match triangle_holds(corners, cell.centre()) {
                 true => 0.0,
                 false => closest(corners, cell.centre()).distance(cell.centre()),
             };
@@ -156,11 +156,6 @@ fn touching_the_boundary(triangles: &[[u32; 3]], points: usize) -> Vec<bool> {
     }
     let touches = |corners: &[u32; 3]| corners.iter().any(|&corner| is_outer[corner as usize]);
     triangles.iter().map(touches).collect()
-}
-
-/// Whether the closed counter-clockwise triangle holds `x`, decided exactly.
-fn holds([a, b, c]: [DVec2; 3], x: DVec2) -> bool {
-    orient2d(a, b, x) >= 0.0 && orient2d(b, c, x) >= 0.0 && orient2d(c, a, x) >= 0.0
 }
 
 /// The point of the triangle's boundary nearest to `x`.

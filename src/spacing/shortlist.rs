@@ -107,7 +107,13 @@ impl Pending {
         let is_fine = radius <= items.finest() * value;
         let is_idle = radius <= value && PROGRESS * parent.len().saturating_sub(list.len()) < parent.len();
         let idle = if is_idle { idle + 1 } else { 0 };
-        let is_short = list.len() <= items.short() && list.iter().all(|item| items.is_single(*item));
+        // Whether no item stands for others, however small a cell.
+        let point = Rect {
+            min: centre,
+            max: centre,
+        };
+        let is_single = |item: &u32| items.parts(*item, &point).is_none();
+        let is_short = list.len() <= items.short() && list.iter().all(is_single);
         let is_leaf = is_short || depth >= DEPTH || is_fine || idle >= IDLE_LEVELS;
         Self {
             cell,

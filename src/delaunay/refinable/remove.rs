@@ -1,7 +1,7 @@
 //! Removing a free vertex: its star is cut into ears, then made Delaunay.
 
 use super::{Refinable, following};
-use crate::geometry::predicates::orient2d;
+use crate::geometry::predicates::{orient2d, triangle_holds};
 use crate::mesh::NONE;
 
 /// A side of the polygon that a removed vertex leaves: where it starts, what is beyond it, and the piece on it.
@@ -72,7 +72,7 @@ impl Refinable {
         let count = polygon.len();
         let corner = |k: usize| self.point(polygon[k % count].from);
         let [a, b, c] = [corner(tip + count - 1), corner(tip), corner(tip + 1)];
-        let holds = |x| orient2d(a, b, x) >= 0.0 && orient2d(b, c, x) >= 0.0 && orient2d(c, a, x) >= 0.0;
-        orient2d(a, b, c) > 0.0 && !(tip + 2..tip + count - 1).any(|k| holds(corner(k)))
+        let holds = |k: usize| triangle_holds([a, b, c], corner(k));
+        orient2d(a, b, c) > 0.0 && !(tip + 2..tip + count - 1).any(holds)
     }
 }

@@ -194,8 +194,8 @@ impl Group {
             .fold(methods.saturating_mul(params), usize::saturating_mul)
     }
 
-    /// The group's cells, domain by domain, within a domain spacing by spacing, within a spacing method by method.
-    pub(super) fn cells(&self, budget: CellBudget) -> Result<Vec<PlannedCell>, String> {
+    /// Whether what it asks for can be had.
+    fn check(&self) -> Result<(), String> {
         if let Some(Err(error)) = self.poisson.as_ref().map(|name| Problem::named(name, Rect::EMPTY)) {
             return Err(error.to_string());
         }
@@ -211,6 +211,12 @@ impl Group {
         if self.timed && self.repeats == 0 {
             return Err("`repeats` must be at least 1".into());
         }
+        Ok(())
+    }
+
+    /// The group's cells, domain by domain, within a domain spacing by spacing, within a spacing method by method.
+    pub(super) fn cells(&self, budget: CellBudget) -> Result<Vec<PlannedCell>, String> {
+        self.check()?;
         let methods = self.methods()?;
         let asked = |domain: &String, spacing: &String, method: &Method| {
             let mut cells = Vec::new();
