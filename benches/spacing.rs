@@ -1,10 +1,12 @@
 //! Cost of the control spacing: building and evaluating lfs, the limiter and an expression, and ∫ dA / f².
 //!
-//! The domain is a real outline of 3601 segments; queries come in the order of a mesh, neighbours after one another. The
-//! nearest-segment query of the domain stands beside lfs: lfs should cost at most three times as much.
+//! The domain is a real outline of 10 223 segments; queries are at the centres of the triangles of a mesh by biting, in the order
+//! of the mesh. The nearest-segment query of the domain stands beside lfs: lfs should cost at most three times as much.
 
 use biting::domain::{Domain, gallery};
 use biting::geometry::{DVec2, Rect};
+use biting::meshers::biting::Biting;
+use biting::meshers::{Mesher, Request, Trace};
 use biting::spacing::{Expression, Options, Spacing, Uniform, background, build, integrate, lfs_of, limit};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -12,19 +14,22 @@ use std::sync::Arc;
 
 /// A real coast with islands.
 fn outline() -> Domain {
-    gallery::domain("aegean")
+    gallery::domain("norway")
         .expect("the gallery has it")
         .expect("the gallery is valid")
 }
 
-/// Points of the domain row by row, every other row backwards.
-fn walk(domain: &Domain, side: usize) -> Vec<DVec2> {
-    let bounds = domain.bounds();
-    let place =
-        |i: usize, j: usize| bounds.min + bounds.size() * DVec2::new(i as f64 + 0.5, j as f64 + 0.5) / side as f64;
-    let row = |j: usize| (0..side).map(move |i| if j.is_multiple_of(2) { i } else { side - 1 - i });
-    let all = (0..side).flat_map(|j| row(j).map(move |i| place(i, j)));
-    all.filter(|&x| domain.contains(x)).collect()
+/// α = t / c_b of the default pair.
+const ALPHA: f64 = 1.0 / 3.0;
+
+/// The centres of the first 10⁵ triangles of a mesh by biting.
+fn places(domain: &Domain) -> Vec<DVec2> {
+    let spacing = build("lfs", domain, &Options::with_alpha(ALPHA)).expect("lfs is positive");
+    let mesh = Biting::default()
+        .mesh(domain, &*spacing.function, &Request::new(0.75), &mut Trace::default())
+        .expect("it is meshed");
+    let centre = |t: usize| mesh.corners(t).into_iter().sum::<DVec2>() / 3.0;
+    (0..mesh.triangles.len().min(100_000)).map(centre).collect()
 }
 
 fn evaluate(points: &[DVec2], f: impl Fn(DVec2) -> f64) -> f64 {
@@ -33,7 +38,7 @@ fn evaluate(points: &[DVec2], f: impl Fn(DVec2) -> f64) -> f64 {
 
 fn evaluations(criterion: &mut Criterion) {
     let domain = outline();
-    let points = walk(&domain, 300);
+    let points = places(&domain);
     let lfs = Arc::new(lfs_of(&domain).expect("a polygon has features"));
     let unit = Rect {
         min: DVec2::ZERO,
@@ -51,7 +56,7 @@ fn evaluations(criterion: &mut Criterion) {
     });
     group.bench_function("lfs", |b| b.iter(|| evaluate(&points, |x| lfs.at(x))));
     group.bench_function("expression", |b| b.iter(|| evaluate(&points, |x| waves.at(x))));
-    for alpha in [0.1, 0.25, 0.5, 0.8] {
+    for alpha in [0.1, ALPHA, 0.5] {
         let limited = limit(lfs.clone(), &domain, alpha, 0.9).expect("lfs is positive");
         group.bench_function(BenchmarkId::new("limited-lfs", alpha), |b| {
             b.iter(|| evaluate(&points, |x| limited.at(x)));
@@ -70,7 +75,7 @@ fn builds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("build");
     group.sample_size(10);
     group.bench_function("lfs", |b| b.iter(|| black_box(lfs_of(&domain))));
-    for alpha in [0.1, 0.25, 0.5, 0.8] {
+    for alpha in [0.1, ALPHA, 0.5] {
         group.bench_function(BenchmarkId::new("limited-lfs", alpha), |b| {
             b.iter(|| limit(lfs.clone(), &domain, alpha, 0.9).map(|f| f.lipschitz()));
         });
@@ -86,7 +91,7 @@ fn integrals(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("integral");
     group.sample_size(10);
     group.bench_function("uniform", |b| b.iter(|| integrate(&Uniform(0.1), &domain, 1e-3)));
-    for alpha in [0.25, 1.0] {
+    for alpha in [ALPHA, 1.0] {
         let f = build("lfs", &domain, &Options::with_alpha(alpha))
             .expect("lfs is positive")
             .function;

@@ -120,6 +120,11 @@ pub const ENTRIES: &[Entry] = &[
         "a peninsula, islands, an enclave as a hole (km)",
         Make::Outline(outlines::ITALY),
     ),
+    entry(
+        "norway",
+        "a fjord coast of more than 10⁴ segments, in many parts (km)",
+        Make::Outline(outlines::NORWAY),
+    ),
 ];
 
 /// The gallery domain that `spec` names, `None` where the gallery has none of that name.

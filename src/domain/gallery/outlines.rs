@@ -7,6 +7,7 @@ pub(super) const AEGEAN: &str = include_str!("outlines/aegean.poly");
 pub(super) const BRITISH_ISLES: &str = include_str!("outlines/british-isles.poly");
 pub(super) const ICELAND: &str = include_str!("outlines/iceland.poly");
 pub(super) const ITALY: &str = include_str!("outlines/italy.poly");
+pub(super) const NORWAY: &str = include_str!("outlines/norway.poly");
 
 /// Reads an outline's file; it holds its vertices itself.
 pub(super) fn read(name: &str, text: &str) -> Result<Pslg, String> {

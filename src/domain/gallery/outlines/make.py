@@ -14,7 +14,7 @@ What is done to it, in this order, for each outline:
  3. lakes, islands and parts of sea below AREA km2 are dropped;
  4. countries are simplified together, so that common borders stay common (coverage_simplify at TOLERANCE km);
  5. vertices are removed until no vertex is within APART km of another vertex or of a segment that does not end there,
-    so that no feature is smaller than about a thousandth of the outline;
+    so that no feature is smaller than about a thousandth of the outline (norway: a four thousandth);
  6. coordinates are rounded to ten metres and the result is checked to be valid.
 Segment markers: 1 coast, 2 border between two parts, 3 edge of the window. Region attributes number the parts.
 """
@@ -31,6 +31,7 @@ OUTLINES = {
     'british-isles': ((-11.0, 49.8, 2.0, 59.5), ['United Kingdom', 'Ireland', 'Isle of Man'], False, 10.0, 1.2, 1.0),
     'iceland': ((-25.0, 63.0, -13.0, 67.0), ['Iceland'], False, 1.0, 0.15, 0.4),
     'italy': ((6.0, 35.0, 19.0, 48.0), ['Italy'], False, 6.0, 0.3, 0.6),
+    'norway': ((4.0, 57.5, 32.0, 71.5), ['Norway'], False, 1.0, 0.4, 0.4),
 }
 
 
