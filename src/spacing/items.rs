@@ -3,8 +3,8 @@
 use crate::geometry::{DVec2, Rect};
 use std::ops::Range;
 
-/// [`Items::finest`] of features. Meshes and integrals ask a few times in such a cell where spacing follows lfs: a shorter list
-/// would take longer to make than it saves.
+/// Share of [`Items::is_fine`] for features. Meshes and integrals ask a few times in such a cell where spacing follows lfs: a
+/// shorter list would take longer to make than it saves.
 const FINEST: f64 = 1.0 / 32.0;
 
 /// [`Items::short`] of features.
@@ -31,9 +31,14 @@ pub trait Items: Sync {
         true
     }
 
-    /// A cell is not split once its radius is below this share of the function at its centre.
-    fn finest(&self) -> f64 {
-        FINEST
+    /// Whether a cell is not to be split: its radius as a share of the function at its centre, and how long its list is.
+    fn is_fine(&self, share: f64, _count: usize) -> bool {
+        share <= FINEST
+    }
+
+    /// A list longer than this is of no use: that of its cell is empty.
+    fn longest(&self) -> usize {
+        usize::MAX
     }
 
     /// A list this short is not worth splitting.

@@ -2,7 +2,7 @@
 //! terms that matter in each part of the plane, by a walk down to one of these.
 
 use super::Spacing;
-use super::cover::DEPTH;
+use super::cover::{Cell, DEPTH};
 use super::items::{Items, View};
 use super::shortlist::Shortlists;
 use crate::domain::Domain;
@@ -12,27 +12,36 @@ use std::ops::Range;
 /// Branches more than so large, as a share of a cell's side, do not stand in its list: their parts do.
 const COARSE: f64 = 0.02;
 
-/// A list is as fine as this share of F, or as short: with less, lists take longer to make than queries gain.
+/// A list so short is left alone, and one longer once its cell's radius is this share of F or, the longer the list, less: with
+/// finer cells lists would take longer to make than queries gain.
 const FINEST: f64 = 0.4;
 const SHORT: usize = 48;
+
+/// Branch and bound over all terms is faster than a list longer than this.
+const LONGEST: usize = 192;
 
 /// Most branches waiting in a query: three a level, and the four that are being entered.
 const STACK: usize = 3 * DEPTH + 8;
 
-/// A cell of the quadtree: a term of F where it has no parts, else the smallest v among its parts.
+/// A term of F, or the box around several with the smallest v among them.
 #[derive(Clone, Copy, Debug)]
 pub struct Branch {
     centre: DVec2,
-    half: f64,
+    half: DVec2,
     lowest: f64,
     first: u32,
     parts: u32,
 }
 
 impl Branch {
-    /// A square cell, its v, and where its parts stand.
-    pub fn new(cell: Rect, lowest: f64, parts: std::ops::Range<usize>) -> Self {
-        let half = 0.5 * cell.size().max_element();
+    /// A term: a square cell and its v. Or a box around several, the smallest v among them, and where they stand; they are within
+    /// it also after its centre is rounded.
+    pub fn new(cell: Rect, lowest: f64, parts: Range<usize>) -> Self {
+        let half = if parts.is_empty() {
+            DVec2::splat(0.5 * cell.size().max_element())
+        } else {
+            0.5 * cell.size() + 2.0 * f64::EPSILON * cell.largest_coordinate()
+        };
         Self {
             centre: cell.centre(),
             half,
@@ -44,14 +53,14 @@ impl Branch {
 
     #[inline]
     fn at(&self, x: DVec2, alpha: f64) -> f64 {
-        let outside = ((x - self.centre).abs() - DVec2::splat(self.half)).max(DVec2::ZERO);
+        let outside = ((x - self.centre).abs() - self.half).max(DVec2::ZERO);
         self.lowest + alpha * outside.length()
     }
 
     /// From the point of the cell nearest to `x` to `x`.
     fn offset(&self, x: DVec2) -> DVec2 {
         let offset = x - self.centre;
-        offset - offset.clamp(DVec2::splat(-self.half), DVec2::splat(self.half))
+        offset - offset.clamp(-self.half, self.half)
     }
 }
 
@@ -60,7 +69,7 @@ impl Branch {
 pub struct Limited {
     alpha: f64,
     branches: Vec<Branch>,
-    /// Of the terms, over the root's cell.
+    /// Of the terms, over the square around the domain.
     lists: Option<Shortlists>,
 }
 
@@ -75,15 +84,11 @@ impl Limited {
     }
 
     /// The same function, with lists of what matters of it wherever `domain` is: they take some time to make, and queries are
-    /// several times as fast.
+    /// two to five times as fast, the less so the larger α is.
     pub fn listed(mut self, domain: &Domain) -> Self {
-        let root = self.branches[0];
-        let cell = Rect {
-            min: root.centre - root.half,
-            max: root.centre + root.half,
-        };
         let limited = &self;
-        self.lists = Some(Shortlists::new(&Terms { limited, domain }, &[0], cell));
+        let root = Cell::root(domain).rect;
+        self.lists = Some(Shortlists::new(&Terms { limited, domain }, &[0], root));
         self
     }
 
@@ -168,7 +173,7 @@ impl Items for Terms<'_> {
 
     fn parts(&self, item: u32, cell: &Rect) -> Option<Range<u32>> {
         let branch = &self.limited.branches[item as usize];
-        let is_large = branch.parts > 0 && branch.half > COARSE * cell.size().max_element();
+        let is_large = branch.parts > 0 && branch.half.max_element() > COARSE * cell.size().max_element();
         is_large.then(|| branch.first..branch.first + branch.parts)
     }
 
@@ -178,8 +183,12 @@ impl Items for Terms<'_> {
         self.domain.index().nearest(centre).is_none_or(is_near) || self.domain.contains(centre)
     }
 
-    fn finest(&self) -> f64 {
-        FINEST
+    fn is_fine(&self, share: f64, count: usize) -> bool {
+        share * count.min(LONGEST) as f64 <= FINEST * SHORT as f64
+    }
+
+    fn longest(&self) -> usize {
+        LONGEST
     }
 
     fn short(&self) -> usize {
@@ -189,7 +198,7 @@ impl Items for Terms<'_> {
 
 impl Spacing for Limited {
     fn at(&self, x: DVec2) -> f64 {
-        // There is no list outside the domain.
+        // There is no list outside the domain, nor where it would be long.
         let list = self.lists.as_ref().and_then(|lists| lists.at(x));
         match list.filter(|list| !list.is_empty()) {
             Some(list) => self.lowest_of(list, x).0,

@@ -104,7 +104,7 @@ impl Pending {
                 }
             }
         }
-        let is_fine = radius <= items.finest() * value;
+        let is_fine = items.is_fine(radius / value, list.len());
         let is_idle = radius <= value && PROGRESS * parent.len().saturating_sub(list.len()) < parent.len();
         let idle = if is_idle { idle + 1 } else { 0 };
         // Whether no item stands for others, however small a cell.
@@ -115,6 +115,9 @@ impl Pending {
         let is_single = |item: &u32| items.parts(*item, &point).is_none();
         let is_short = list.len() <= items.short() && list.iter().all(is_single);
         let is_leaf = is_short || depth >= DEPTH || is_fine || idle >= IDLE_LEVELS;
+        if is_leaf && list.len() > items.longest() {
+            list.clear();
+        }
         Self {
             cell,
             depth,
