@@ -171,7 +171,7 @@ fn every_mesher_on_every_small_domain() {
 }
 
 /// A SPEC of each of `spacing::KINDS`, in that order; the files are meshes of the domain.
-fn kinds(field: &str, mesh: &str) -> Vec<String> {
+fn kinds(field: &str, sizes: &str, mesh: &str) -> Vec<String> {
     let u = "tanh((x+y-1)/0.2)";
     vec![
         "lfs".into(),
@@ -179,6 +179,7 @@ fn kinds(field: &str, mesh: &str) -> Vec<String> {
         "expr:0.05+0.1*x^2".into(),
         format!("hessian:{u};eps=0.02"),
         format!("field:{field};eps=0.02;min=0.02"),
+        format!("points:{sizes};alpha=0.2"),
         format!("el:{mesh}"),
         format!("nn:{mesh};factor=0.8"),
         format!("gns:hessian:{u};eps=0.02;max=0.3"),
@@ -196,10 +197,13 @@ fn every_kind_of_spacing_by_every_mesher() {
         let first = certified(&methods()[0], &pslg, "uniform:0.15", "the mesh to begin with").expect("a mesh");
         let values: Vec<f64> = first.points.iter().map(|x| ((x.x + x.y - 1.0) / 0.2).tanh()).collect();
         let file = |name: &str| folder.path().join(format!("{}-{name}", pslg.name));
-        let (field, mesh) = (file("u.node"), file("mesh.vtu"));
+        let [field, sizes, mesh] = ["u.node", "sizes.node", "mesh.vtu"].map(file);
+        let positive: Vec<f64> = values.iter().map(|value| 0.2 + 0.1 * value).collect();
         files::write_with_values(&first, &values, &field).expect("written");
+        files::write_with_values(&first, &positive, &sizes).expect("written");
         files::write(&first, &mesh).expect("written");
-        let specs = kinds(&field.display().to_string(), &mesh.display().to_string());
+        let [field, sizes, mesh] = [field, sizes, mesh].map(|file| file.display().to_string());
+        let specs = kinds(&field, &sizes, &mesh);
         assert_eq!(specs.len(), spacing::KINDS.len());
         for (spec, kind) in specs.iter().zip(spacing::KINDS) {
             let start = kind.split([':', '(']).next().unwrap_or_default();

@@ -70,18 +70,27 @@ impl Figure for Sheet<'_> {
         match self.meshes {
             [(_, mesh)] => draw(&left, mesh, bounds(mesh))?,
             meshes => {
-                let areas = left.split_evenly((meshes.len().div_ceil(2), 2));
-                for ((title, mesh), area) in meshes.iter().zip(&areas) {
-                    let (head, body) = area.split_vertically(36 * FINE);
-                    let middle = (head.dim_in_pixel().0 as i32 / 2, 22 * FINE);
-                    let look = style::text(TITLE, INK, HPos::Center, VPos::Center);
-                    head.draw(&Text::new(title.to_string(), middle, look))?;
-                    draw(&body, mesh, bounds(mesh))?;
+                let titles: Vec<&str> = meshes.iter().map(|mesh| mesh.0).collect();
+                for (body, (_, mesh)) in under_titles(&left, &titles)?.iter().zip(meshes) {
+                    draw(body, mesh, bounds(mesh))?;
                 }
             }
         }
         angle_bar(&right)
     }
+}
+
+/// Draws titles, two by two, and returns the areas under them.
+pub(super) fn under_titles<DB: DrawingBackend>(area: &Area<DB>, titles: &[&str]) -> Drawn<Vec<Area<DB>>> {
+    let areas = area.split_evenly((titles.len().div_ceil(2), 2));
+    let under = areas.iter().zip(titles).map(|(area, title)| {
+        let (head, body) = area.split_vertically(36 * FINE);
+        let middle = (head.dim_in_pixel().0 as i32 / 2, 22 * FINE);
+        let look = style::text(TITLE, INK, HPos::Center, VPos::Center);
+        head.draw(&Text::new(title.to_string(), middle, look))?;
+        Ok(body)
+    });
+    under.collect()
 }
 
 /// What the colours mean.
@@ -150,14 +159,14 @@ fn edges(mesh: &Mesh) -> Vec<[u32; 2]> {
 }
 
 /// From the plane to drawing units, y turned over, the same scale in both directions.
-struct View {
+pub(super) struct View {
     centre: DVec2,
     middle: DVec2,
     scale: f64,
 }
 
 impl View {
-    fn of(bounds: Rect, (width, height): (u32, u32)) -> Self {
+    pub fn of(bounds: Rect, (width, height): (u32, u32)) -> Self {
         let room = DVec2::new(f64::from(width), f64::from(height));
         let margin = DVec2::splat(24.0 * f64::from(FINE));
         let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
@@ -168,7 +177,7 @@ impl View {
         }
     }
 
-    fn place(&self, point: DVec2) -> (i32, i32) {
+    pub fn place(&self, point: DVec2) -> (i32, i32) {
         let moved = self.scale * (point - self.centre);
         (
             (self.middle.x + moved.x).round() as i32,

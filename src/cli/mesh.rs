@@ -5,6 +5,7 @@ use super::exit::{Failure, Outcome};
 use super::output::{self, STDOUT, Target, say, say_aside};
 use super::values::{bytes, positive};
 use super::watch;
+use crate::charts;
 use crate::domain::Domain;
 use crate::experiment::machine;
 use crate::experiment::measure::{self, Run};
@@ -12,7 +13,8 @@ use crate::experiment::prepare::{Prepared, Store};
 use crate::experiment::record::{Cell, Report};
 use crate::experiment::runner;
 use crate::meshers::{Budget, Entry, MeshError, Mesher, Request};
-use crate::spacing;
+use crate::spacing::{self, Ingredients, Options, Spec};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 #[derive(clap::Args)]
@@ -34,6 +36,9 @@ pub struct Arguments {
     /// Where to write the report, or - for standard output
     #[arg(long, value_name = "FILE.json")]
     report: Option<String>,
+    /// Draw lfs, nsf, their minimum and f, which was limited, as maps to STEM.svg and STEM.png
+    #[arg(long, value_name = "STEM")]
+    maps: Option<PathBuf>,
     /// Mend what can be mended in a domain file, and say what was changed
     #[arg(long)]
     repair: bool,
@@ -82,6 +87,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
             written.push(name.into());
         }
     }
+    if let Some(stem) = &arguments.maps {
+        written.extend(draw_maps(&prepared, stem)?);
+    }
     let mut lines = summary(&report);
     lines.extend(written.iter().map(|path| format!("wrote {}", path.display())));
     if targets.contains(&Target::Stdout) || arguments.report.as_deref() == Some(STDOUT) {
@@ -91,6 +99,20 @@ pub fn run(arguments: &Arguments) -> Outcome {
         say(lines.join("\n"));
     }
     output::verdict(&report.certificate)
+}
+
+/// Draws what the spacing is made of.
+fn draw_maps(prepared: &Prepared, stem: &Path) -> Result<[PathBuf; 2], Failure> {
+    let options = Options {
+        lfs_cap: prepared.lfs_cap,
+        ..Options::with_alpha(prepared.spacing.lipschitz())
+    };
+    let spec = Spec::parse(&prepared.spec).map_err(Failure::input)?;
+    let site = &prepared.site;
+    let ingredients =
+        Ingredients::new(&spec, &site.domain, &options, || Ok(site.lfs.clone())).map_err(Failure::input)?;
+    charts::spacing_maps(&site.domain, &ingredients, &*prepared.spacing, stem).map_err(Failure::input)?;
+    Ok(["svg", "png"].map(|ending| stem.with_extension(ending)))
 }
 
 impl Arguments {

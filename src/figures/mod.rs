@@ -83,6 +83,11 @@ pub static FIGURES: &[Entry] = &[
         title: "Study: one domain by every mesher",
         draw: study::meshers,
     },
+    Entry {
+        name: "study-spacing",
+        title: "Study: where geometry and where the solution decides (§2)",
+        draw: study::spacing,
+    },
 ];
 
 /// The experiment whose rows the figures of the study show.

@@ -4,16 +4,17 @@ use super::Material;
 use super::drawing::{Drawing, Numbers, Picture};
 use super::run::short;
 use crate::charts::{self, SIZE_RATIO};
-use crate::domain;
+use crate::domain::{self, Domain};
 use crate::experiment::measure::fingerprint;
 use crate::experiment::record::{Cell, Row};
 use crate::experiment::series::{TimeSeries, time_series};
 use crate::experiment::summary::{Grid, Setting, measured, median, setting};
+use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use crate::meshers::{MESHERS, Parameters, Request, Trace};
 use crate::quality::angles_deg;
 use crate::report::{grids, ours};
-use crate::spacing::{self, Options};
+use crate::spacing::{self, Ingredients, Options, Spacing, Spec, lfs_of};
 use serde_json::Value;
 
 /// The measured smallest angle against the bound.
@@ -241,4 +242,54 @@ pub(super) fn meshers(_: &Material) -> Result<Drawing<'static>, String> {
         numbers,
         commands,
     })
+}
+
+/// The domain whose spacing is shown, and u: a front across the plate, beside the hole and through its arms.
+const MAPPED: &str = "plate-hole";
+const SOLUTION: &str = "hessian:tanh((x - 0.35*y - 0.1)/0.05);eps=0.02;max=0.5";
+
+/// lfs, nsf, their minimum, and what is left of it once limited.
+pub(super) fn spacing(_: &Material) -> Result<Drawing<'static>, String> {
+    let told = |error: &dyn std::fmt::Display| error.to_string();
+    let domain = domain::load(MAPPED).map_err(|error| told(&error))?;
+    let options = Options::new(T, C_B);
+    let spec = Spec::parse(SOLUTION).map_err(|error| told(&error))?;
+    let lfs = || Ok(std::sync::Arc::new(lfs_of(&domain)?));
+    let ingredients = Ingredients::new(&spec, &domain, &options, lfs).map_err(|error| told(&error))?;
+    let f = spacing::build(SOLUTION, &domain, &options).map_err(|error| told(&error))?;
+    let share = decided_by_lfs(&ingredients, &domain);
+    let caption = format!(
+        "The control spacing of §2 on `{MAPPED}` for `{SOLUTION}`: lfs, which geometry asks for; nsf, which the second derivatives of u \
+         ask for; gns, the smaller of the two; and f, the largest function below it that is α-Lipschitz with α = t / c_b = {}, up \
+         to the limit factor. On {} % of the area geometry decides, on the rest the solution.",
+        short(T / C_B),
+        short(100.0 * share)
+    );
+    Ok(Drawing {
+        caption,
+        numbers: Numbers::default().number("share_decided_by_lfs", share),
+        commands: vec![format!(
+            "cargo run --release -- mesh {MAPPED}{} --maps spacing",
+            Cell::new(MAPPED, "biting", SOLUTION, T, C_B).options()
+        )],
+        picture: Picture::Chart(Box::new(move |stem| {
+            charts::spacing_maps(&domain, &ingredients, &*f.function, stem)
+        })),
+    })
+}
+
+/// Points along each side of the box that are asked.
+const ASKED: usize = 300;
+
+/// The share of the domain on which lfs is the smaller.
+fn decided_by_lfs(ingredients: &Ingredients, domain: &Domain) -> f64 {
+    let (Some(lfs), Some(nsf)) = (&ingredients.lfs, &ingredients.nsf) else {
+        return f64::from(u8::from(ingredients.nsf.is_none()));
+    };
+    let bounds = domain.bounds();
+    let place = |k: usize| DVec2::new((k % ASKED) as f64 + 0.5, (k / ASKED) as f64 + 0.5) / ASKED as f64;
+    let points = (0..ASKED * ASKED).map(|k| bounds.min + place(k) * bounds.size());
+    let inside: Vec<DVec2> = points.filter(|&x| domain.contains(x)).collect();
+    let decided = inside.iter().filter(|&&x| lfs.at(x) <= nsf.at(x)).count();
+    decided as f64 / inside.len() as f64
 }

@@ -1,6 +1,7 @@
 //! All statements judged, as rows and as the page `results/lemmas/README.md`.
 
 use super::judge::{Judged, Verdict, grid, optima, verdict};
+use super::limiter::{self, Limiting};
 use super::measured::{Meshes, Worst};
 use super::nearest::{self, Found};
 use super::record::{Bound, Statement};
@@ -174,7 +175,7 @@ pub fn judge_all(meshes: &Meshes, only: Option<&str>) -> Vec<Line> {
 }
 
 /// The page.
-pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found]) -> String {
+pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found], limiting: &[Limiting]) -> String {
     let count = |word: &str| lines.iter().filter(|line| line.printed.word() == word).count();
     let mut text = format!(
         "# The paper's statements, judged twice\n\nMade by `cargo run --release -- lemmas` from the records in `src/lemmas/statements`; nothing here is typed.\n\n\
@@ -207,6 +208,7 @@ pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found]) -> String {
     text += "## Where the worst was seen\n\n";
     text += &where_seen(lines);
     text += &nearest::section(nearest, meshes);
+    text += &limiter::section(limiting);
     text += "## Figures\n\n";
     text += &figures(lines);
     text += "## What each needs and what rests on it\n\n";

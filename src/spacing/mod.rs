@@ -3,8 +3,8 @@
 //! A SPEC ([`Spec`]) names a spacing; [`build`] makes of it the f a mesher sees:
 //!
 //! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`Expression`], [`Hessian`] (the nsf of §2.2) and
-//!    [`Nodal`], the same for a field on an earlier mesh, [`EdgeLength`] and [`NearestNeighbour`] of an earlier mesh (§2.1), or
-//!    the [`Min`] of several;
+//!    [`Nodal`], the same for a field on an earlier mesh, [`EdgeLength`] and [`NearestNeighbour`] of an earlier mesh (§2.1),
+//!    the envelope of sizes at points ([`of_samples`], §2.3), or the [`Min`] of several;
 //! 2. capped by lfs, which gives the gns of §2.3, unless [`Options::lfs_cap`] is off;
 //! 3. limited to the Lipschitz constant [`Options::alpha`] by [`limit`] (§2.3).
 //!
@@ -12,12 +12,12 @@
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
-use crate::mesh::files::{self, MeshFileError};
 use std::sync::Arc;
 
 mod background;
 mod combine;
 pub(crate) mod cover;
+mod envelope;
 mod expression;
 mod features;
 mod field;
@@ -25,6 +25,7 @@ mod gradient;
 mod gradient_limit;
 mod grammar;
 mod hessian;
+mod ingredients;
 mod integral;
 mod items;
 mod jet;
@@ -38,6 +39,7 @@ mod parse;
 mod program;
 mod proved;
 mod recover;
+mod reference;
 mod rule;
 mod samples;
 mod settings;
@@ -48,16 +50,19 @@ mod uniform;
 
 pub use background::Background;
 pub use combine::{Min, Scaled};
+pub use envelope::of_samples;
 pub use expression::Expression;
 pub use field::{Nodal, recovered_eigenvalues};
 pub use gradient_limit::{background, limit};
 pub use grammar::GrammarError;
 pub use hessian::{Hessian, Tolerance};
+pub use ingredients::Ingredients;
 pub use integral::{Integral, estimate_triangles, integrate};
 pub use lfs::{Lfs, Narrowest};
 pub use limited::Limited;
 pub use of_mesh::{EdgeLength, NearestNeighbour};
 pub use parse::{KINDS, Spec, spec_for_size};
+pub use reference::largest_at;
 pub use rule::Rule;
 pub use uniform::Uniform;
 
@@ -301,77 +306,14 @@ pub fn build_with(
 ) -> Result<Prepared, SpacingError> {
     options.check()?;
     let parsed = Spec::parse(spec)?;
-    let is_capped = options.lfs_cap || parsed.is_capped();
-    let cap = is_capped.then(lfs).transpose()?;
-    let mut parts = Vec::new();
-    collect(&parsed, domain.bounds(), &mut parts)?;
-    parts.extend(cap.map(|lfs| lfs as Arc<dyn Spacing>));
-    let function = Min::of(parts, domain.bounds());
-    let function = limit(function, domain, options.alpha, options.limit_factor)?;
+    let Ingredients { gns, is_capped, .. } = Ingredients::new(&parsed, domain, options, lfs)?;
+    let function = limit(gns, domain, options.alpha, options.limit_factor)?;
     Ok(Prepared {
         spec: parsed.to_string(),
         lfs_cap: is_capped,
         alpha: options.alpha,
         function,
     })
-}
-
-/// The parts of `spec` other than lfs.
-fn collect(spec: &Spec, bounds: Rect, parts: &mut Vec<Arc<dyn Spacing>>) -> Result<(), SpacingError> {
-    match spec {
-        Spec::Lfs => {}
-        Spec::Uniform(value) => parts.push(Arc::new(Uniform(*value))),
-        Spec::Expression(text) => parts.push(Arc::new(Expression::new(text, bounds).map_err(told(text))?)),
-        Spec::Hessian(text, tolerance) => {
-            parts.push(Arc::new(Hessian::new(text, tolerance, bounds).map_err(told(text))?));
-        }
-        Spec::Field(file, tolerance) => {
-            let field = on_mesh(spec, files::read_with_values(file.as_ref()), |(mesh, values)| {
-                Nodal::for_field(mesh, values, tolerance, bounds)
-            })?;
-            parts.push(Arc::new(field));
-        }
-        Spec::EdgeLength(file, factor) => {
-            let el = on_mesh(spec, files::read(file.as_ref()), EdgeLength::new)?;
-            parts.push(times(*factor, Arc::new(el)));
-        }
-        Spec::NearestNeighbour(file, factor) => {
-            let nn = on_mesh(spec, files::read(file.as_ref()), NearestNeighbour::new)?;
-            parts.push(times(*factor, Arc::new(nn)));
-        }
-        Spec::Gns(inner) => collect(inner, bounds, parts)?,
-        Spec::Min(specs) => specs.iter().try_for_each(|spec| collect(spec, bounds, parts))?,
-    }
-    Ok(())
-}
-
-/// The spacing that `make` makes of what was read.
-fn on_mesh<M, T>(
-    spec: &Spec,
-    read: Result<M, MeshFileError>,
-    make: impl FnOnce(&M) -> Result<T, String>,
-) -> Result<T, SpacingError> {
-    let made = read.map_err(|error| error.to_string()).and_then(|mesh| make(&mesh));
-    made.map_err(|message| SpacingError::Mesh {
-        spec: spec.to_string(),
-        message,
-    })
-}
-
-fn times(factor: Option<f64>, spacing: Arc<dyn Spacing>) -> Arc<dyn Spacing> {
-    match factor {
-        Some(factor) => Arc::new(Scaled::new(factor, spacing)),
-        None => spacing,
-    }
-}
-
-/// What is wrong with an expression, as an error of the spacing.
-fn told(text: &str) -> impl FnOnce(GrammarError) -> SpacingError {
-    |source| SpacingError::Parse {
-        spec: text.to_owned(),
-        column: source.column,
-        message: source.message,
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! SPEC = lfs | uniform:H | expr:EXPRESSION | hessian:EXPRESSION;eps=E[;min=A][;max=B]
-//!      | field:FILE;eps=E[;min=A][;max=B] | el:FILE[;factor=K] | nn:FILE[;factor=K] | gns:SPEC | min(SPEC, SPEC, …)
+//!      | field:FILE;eps=E[;min=A][;max=B] | points:FILE[;factor=K][;alpha=A] | el:FILE[;factor=K] | nn:FILE[;factor=K]
+//!      | gns:SPEC | min(SPEC, SPEC, …)
 //! ```
 //! Commas split `min` where no parenthesis of an expression is open; a file's name has no commas, semicolons or parentheses.
 
@@ -13,12 +14,13 @@ use super::settings;
 use std::fmt;
 
 /// The kinds of SPEC with their arguments, for messages and lists.
-pub const KINDS: [&str; 9] = [
+pub const KINDS: [&str; 10] = [
     "lfs",
     "uniform:H",
     "expr:EXPRESSION",
     "hessian:EXPRESSION;eps=E",
     "field:FILE;eps=E",
+    "points:FILE",
     "el:FILE",
     "nn:FILE",
     "gns:SPEC",
@@ -38,6 +40,15 @@ pub enum Spec {
     Hessian(String, Tolerance),
     /// nsf of §2.2 for u given at the vertices of the mesh in a file.
     Field(String, Tolerance),
+    /// The envelope of §2.3 of sizes at points.
+    Points {
+        /// The file that has them.
+        file: String,
+        /// What they are multiplied by.
+        factor: Option<f64>,
+        /// By how much f may grow away from them.
+        alpha: Option<f64>,
+    },
     /// el_M of §2.1 for the mesh in a file, times a factor if there is one.
     EdgeLength(String, Option<f64>),
     /// nn_M of §2.1 for the mesh in a file, times a factor if there is one.
@@ -56,6 +67,10 @@ impl fmt::Display for Spec {
             Self::Expression(text) => write!(out, "expr:{text}"),
             Self::Hessian(text, tolerance) => write!(out, "hessian:{text}{}", tolerance_text(tolerance)),
             Self::Field(file, tolerance) => write!(out, "field:{file}{}", tolerance_text(tolerance)),
+            Self::Points { file, factor, alpha } => {
+                let given = settings::text(&[("factor", *factor), ("alpha", *alpha)]);
+                write!(out, "points:{file}{given}")
+            }
             Self::EdgeLength(file, factor) => write!(out, "el:{file}{}", settings::text(&[("factor", *factor)])),
             Self::NearestNeighbour(file, factor) => write!(out, "nn:{file}{}", settings::text(&[("factor", *factor)])),
             Self::Gns(inner) => write!(out, "gns:{inner}"),
@@ -90,7 +105,7 @@ impl Spec {
             Self::Lfs | Self::Gns(_) => true,
             Self::Min(parts) => parts.iter().any(Self::is_capped),
             Self::Uniform(_) | Self::Expression(_) | Self::Hessian(..) => false,
-            Self::Field(..) | Self::EdgeLength(..) | Self::NearestNeighbour(..) => false,
+            Self::Field(..) | Self::Points { .. } | Self::EdgeLength(..) | Self::NearestNeighbour(..) => false,
         }
     }
 }
@@ -160,6 +175,12 @@ impl Reader<'_> {
             let start = from + "field:".len();
             let (file, tolerance) = self.tolerance(rest, start)?;
             return Ok(Spec::Field(self.file(file, start)?, tolerance));
+        }
+        if let Some(rest) = text.strip_prefix("points:") {
+            let start = from + "points:".len();
+            let (file, [factor, alpha]) = self.settings(rest, start, ["factor", "alpha"])?;
+            let file = self.file(file, start)?;
+            return Ok(Spec::Points { file, factor, alpha });
         }
         for (kind, make) in [
             ("el:", Spec::EdgeLength as fn(String, Option<f64>) -> Spec),
@@ -231,7 +252,7 @@ impl Reader<'_> {
     fn file(&self, text: &str, start: usize) -> Result<String, SpacingError> {
         let name = text.trim();
         if name.is_empty() {
-            return Err(self.error(start, "the file of a mesh expected"));
+            return Err(self.error(start, "a file expected"));
         }
         Ok(name.to_owned())
     }

@@ -20,6 +20,7 @@ mod triangle;
 mod vtu;
 
 use crate::files::write_together;
+use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use std::path::{Path, PathBuf};
 
@@ -163,29 +164,51 @@ fn write_triangle(mesh: &Mesh, values: Option<&[f64]>, path: &Path) -> Result<()
 /// # Errors
 /// As [`read`]; other formats; files without such values, or with some that are not finite.
 pub fn read_with_values(path: &Path) -> Result<(Mesh, Vec<f64>), MeshFileError> {
-    let (mesh, values, at) = match format_of(path, has_values)? {
+    match format_of(path, has_values)? {
         Format::Triangle => {
             let (node, ele) = (path.with_extension("node"), path.with_extension("ele"));
             let (mut mesh, base, values) = parse(&node, triangle::parse_node_with_values)?;
             parse(&ele, |text| triangle::parse_ele(text, &mut mesh, base))?;
-            (mesh, values, node)
+            with_values(mesh, values, &node)
         }
-        _ => {
-            let (mesh, values) = parse(path, |text| {
-                let mesh = vtu::parse(text)?;
-                let values = vtu::values(text, mesh.points.len())?;
-                Ok((mesh, values))
-            })?;
-            (mesh, values, path.to_path_buf())
+        _ => read_vtu_with_values(path),
+    }
+}
+
+/// The same without triangles: the `.ele` beside a `.node` need not be there.
+///
+/// # Errors
+/// As [`read_with_values`].
+pub fn read_points_with_values(path: &Path) -> Result<(Vec<DVec2>, Vec<f64>), MeshFileError> {
+    let (mesh, values) = match format_of(path, has_values)? {
+        Format::Triangle => {
+            let node = path.with_extension("node");
+            let (mesh, _, values) = parse(&node, triangle::parse_node_with_values)?;
+            with_values(mesh, values, &node)
         }
-    };
+        _ => read_vtu_with_values(path),
+    }?;
+    Ok((mesh.points, values))
+}
+
+fn read_vtu_with_values(path: &Path) -> Result<(Mesh, Vec<f64>), MeshFileError> {
+    let (mesh, values) = parse(path, |text| {
+        let mesh = vtu::parse(text)?;
+        let values = vtu::values(text, mesh.points.len())?;
+        Ok((mesh, values))
+    })?;
+    with_values(mesh, values, path)
+}
+
+/// Refuses values that are not one finite number for each point.
+fn with_values(mesh: Mesh, values: Vec<f64>, path: &Path) -> Result<(Mesh, Vec<f64>), MeshFileError> {
     let fault = match values.iter().position(|value| !value.is_finite()) {
         Some(vertex) => format!("the value of vertex {vertex} is not finite"),
         None if values.len() == mesh.points.len() => return Ok((mesh, values)),
         None => "it has no values at its points: a .node needs an attribute, a .vtu an array in PointData".into(),
     };
     Err(MeshFileError::Syntax {
-        path: at,
+        path: path.to_path_buf(),
         line: 1,
         message: fault,
     })

@@ -14,6 +14,10 @@ fn every_kind_reads_back_as_it_is_written() {
         ("gns: uniform:2", "gns:uniform:2"),
         ("field:u.vtu;min=1;eps=2", "field:u.vtu;eps=2;min=1"),
         ("el: old mesh.vtu", "el:old mesh.vtu"),
+        (
+            "points:sizes.node; alpha=0.3;factor=2",
+            "points:sizes.node;factor=2;alpha=0.3",
+        ),
         ("min(nn:a.node;factor=0.50, lfs)", "min(nn:a.node;factor=0.5, lfs)"),
         (
             "gns:gns:min(lfs,hessian:max(x,y);eps=1)",
@@ -113,9 +117,9 @@ fn columns_count_characters_from_the_start_of_the_whole() {
             "a number, x, y or a function expected, found the end",
         ),
         ("gns:hessian:x+§;eps=1", 15, "`§` has no meaning here"),
-        ("field:;eps=1", 7, "the file of a mesh expected"),
+        ("field:;eps=1", 7, "a file expected"),
         ("field:u.vtu;eps=0", 17, "a positive number expected after `eps=`"),
-        ("el: ;factor=2", 4, "the file of a mesh expected"),
+        ("el: ;factor=2", 4, "a file expected"),
         ("nn:a.vtu;factor=0", 17, "a positive number expected after `factor=`"),
         ("hessian:x;eps=-1", 15, "a positive number expected after `eps=`"),
         (

@@ -1,0 +1,121 @@
+//! What a spacing is made of before it is limited (§2.3): lfs where it caps, nsf where something else is asked for, and gns, the
+//! smaller of the two.
+
+use super::field::Nodal;
+use super::grammar::GrammarError;
+use super::{
+    EdgeLength, Expression, Hessian, Lfs, Min, NearestNeighbour, Options, Scaled, Spacing, SpacingError, Spec, Uniform,
+    of_samples,
+};
+use crate::domain::Domain;
+use crate::geometry::Rect;
+use crate::mesh::files::{self, MeshFileError};
+use std::sync::Arc;
+
+/// lfs, nsf and gns.
+#[derive(Clone)]
+pub struct Ingredients {
+    /// Where geometry alone asks for; absent where it has no say.
+    pub lfs: Option<Arc<Lfs>>,
+    /// What is asked for beside lfs, if anything is.
+    pub nsf: Option<Arc<dyn Spacing>>,
+    /// The smaller of the two.
+    pub gns: Arc<dyn Spacing>,
+    /// Whether gns is nowhere above lfs.
+    pub is_capped: bool,
+}
+
+impl Ingredients {
+    /// Of `spec` on `domain`.
+    ///
+    /// # Errors
+    /// Everything in [`SpacingError`].
+    pub fn new(
+        spec: &Spec,
+        domain: &Domain,
+        options: &Options,
+        lfs: impl FnOnce() -> Result<Arc<Lfs>, SpacingError>,
+    ) -> Result<Self, SpacingError> {
+        let is_capped = options.lfs_cap || spec.is_capped();
+        let lfs = is_capped.then(lfs).transpose()?;
+        let (mut parts, bounds) = (Vec::new(), domain.bounds());
+        collect(spec, bounds, &mut parts)?;
+        let nsf = (!parts.is_empty()).then(|| Min::of(parts.clone(), bounds));
+        parts.extend(lfs.clone().map(|lfs| lfs as Arc<dyn Spacing>));
+        let gns = Min::of(parts, bounds);
+        Ok(Self {
+            lfs,
+            nsf,
+            gns,
+            is_capped,
+        })
+    }
+}
+
+/// The parts of `spec` other than lfs.
+fn collect(spec: &Spec, bounds: Rect, parts: &mut Vec<Arc<dyn Spacing>>) -> Result<(), SpacingError> {
+    match spec {
+        Spec::Lfs => {}
+        Spec::Uniform(value) => parts.push(Arc::new(Uniform(*value))),
+        Spec::Expression(text) => parts.push(Arc::new(Expression::new(text, bounds).map_err(told(text))?)),
+        Spec::Hessian(text, tolerance) => {
+            parts.push(Arc::new(Hessian::new(text, tolerance, bounds).map_err(told(text))?));
+        }
+        Spec::Field(file, tolerance) => {
+            let field = on_mesh(spec, files::read_with_values(file.as_ref()), |(mesh, values)| {
+                Nodal::for_field(mesh, values, tolerance, bounds)
+            })?;
+            parts.push(Arc::new(field));
+        }
+        Spec::Points { file, factor, alpha } => {
+            let factor = factor.unwrap_or(1.0);
+            // 1 as lfs has it, unless told.
+            let read = files::read_points_with_values(file.as_ref());
+            let envelope = on_mesh(spec, read, |(points, values)| {
+                let values: Vec<f64> = values.iter().map(|value| factor * value).collect();
+                of_samples(alpha.unwrap_or(1.0), points, &values)
+            })?;
+            parts.push(Arc::new(envelope));
+        }
+        Spec::EdgeLength(file, factor) => {
+            let el = on_mesh(spec, files::read(file.as_ref()), EdgeLength::new)?;
+            parts.push(times(*factor, Arc::new(el)));
+        }
+        Spec::NearestNeighbour(file, factor) => {
+            let nn = on_mesh(spec, files::read(file.as_ref()), NearestNeighbour::new)?;
+            parts.push(times(*factor, Arc::new(nn)));
+        }
+        Spec::Gns(inner) => collect(inner, bounds, parts)?,
+        Spec::Min(specs) => specs.iter().try_for_each(|spec| collect(spec, bounds, parts))?,
+    }
+    Ok(())
+}
+
+/// The spacing that `make` makes of what was read.
+fn on_mesh<M, T>(
+    spec: &Spec,
+    read: Result<M, MeshFileError>,
+    make: impl FnOnce(&M) -> Result<T, String>,
+) -> Result<T, SpacingError> {
+    let made = read.map_err(|error| error.to_string()).and_then(|mesh| make(&mesh));
+    made.map_err(|message| SpacingError::Mesh {
+        spec: spec.to_string(),
+        message,
+    })
+}
+
+fn times(factor: Option<f64>, spacing: Arc<dyn Spacing>) -> Arc<dyn Spacing> {
+    match factor {
+        Some(factor) => Arc::new(Scaled::new(factor, spacing)),
+        None => spacing,
+    }
+}
+
+/// What is wrong with an expression, as an error of the spacing.
+fn told(text: &str) -> impl FnOnce(GrammarError) -> SpacingError {
+    |source| SpacingError::Parse {
+        spec: text.to_owned(),
+        column: source.column,
+        message: source.message,
+    }
+}
