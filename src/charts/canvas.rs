@@ -79,7 +79,11 @@ pub(super) fn write_svg(figure: &impl Figure, path: &Path) -> Drawn {
     }
     let header = format!("width=\"{}\" height=\"{}\" viewBox", fine.0, fine.1);
     let shown = format!("width=\"{width}\" height=\"{height}\" viewBox");
-    let text = text.replacen(&header, &shown, 1).replace(" opacity=\"1\"", "");
+    let mut text = text.replacen(&header, &shown, 1);
+    // What every reader takes for granted.
+    for default in [" opacity=\"1\"", " stroke=\"none\""] {
+        text = text.replace(default, "");
+    }
     save(path, text.as_bytes())
 }
 

@@ -61,29 +61,50 @@ pub fn angles_by_t(grids: &[(String, Grid)], stem: &Path) -> Result<(), ChartErr
     write_both(&figure, stem)
 }
 
-/// Draws, for each spacing, how triangles spread over smallest angles, over the tasks that all of `methods` measured: one
-/// panel a spacing, one line a method.
+/// Draws, for each spacing, how triangles spread over smallest angles, over the tasks that all of `methods` measured: one panel a
+/// spacing, one line a method; or where there are more methods than colours, one panel a method, one line a spacing.
 ///
 /// # Errors
 /// [`ChartError`].
 pub fn angles_by_method(contest: &Contest, methods: &[usize], stem: &Path) -> Result<(), ChartError> {
-    let common = contest.common(methods);
-    let panel = |(title, tasks): (String, Vec<usize>)| {
-        let reports = |method: &usize| {
-            tasks
-                .iter()
-                .filter_map(|task| contest.report(*method, *task))
-                .collect::<Vec<_>>()
-        };
-        let title = format!("{title}, {} tasks", tasks.len());
-        (title, methods.iter().map(|method| shares(&reports(method))).collect())
+    let spacings = contest.by_spacing(&contest.common(methods));
+    let lines = |method: &usize, tasks: &[usize]| {
+        let reports = tasks.iter().filter_map(|task| contest.report(*method, *task));
+        shares(&reports.collect::<Vec<_>>())
     };
-    let series = methods.iter().map(|k| &contest.methods[*k]);
-    let figure = Multiples {
-        panels: contest.by_spacing(&common).into_iter().map(panel).collect(),
-        series: series
-            .map(|method| (method.label.clone(), style::method(method).colour))
-            .collect(),
+    let named = |(title, tasks): &(String, Vec<usize>)| {
+        let plural = if tasks.len() == 1 { "" } else { "s" };
+        format!("{title}, {} task{plural}", tasks.len())
+    };
+    let of = |method: &usize| &contest.methods[*method];
+    let figure = if methods.len() > style::CATEGORIES.len() {
+        let panel = |method: &usize| {
+            let shares = spacings.iter().map(|(_, tasks)| lines(method, tasks)).collect();
+            // Narrow panels: without parameters where these tell nothing apart.
+            let same = methods.iter().filter(|other| of(other).mesher == of(method).mesher);
+            let name = if same.count() == 1 {
+                &of(method).mesher
+            } else {
+                &of(method).label
+            };
+            (name.clone(), shares)
+        };
+        Multiples {
+            panels: methods.iter().map(panel).collect(),
+            series: coloured(spacings.iter().map(named)),
+        }
+    } else {
+        let panel = |spacing: &(String, Vec<usize>)| {
+            let shares = methods.iter().map(|method| lines(method, &spacing.1)).collect();
+            (named(spacing), shares)
+        };
+        Multiples {
+            panels: spacings.iter().map(panel).collect(),
+            series: methods
+                .iter()
+                .map(|method| (of(method).label.clone(), style::method(of(method)).colour))
+                .collect(),
+        }
     };
     write_both(&figure, stem)
 }
@@ -93,9 +114,10 @@ fn coloured(names: impl Iterator<Item = String>) -> Vec<(String, RGBColor)> {
     names.enumerate().map(|(k, name)| (name, style::category(k))).collect()
 }
 
-/// Share of triangles a degree, in percent: the mean over meshes, so that a large mesh counts as much as a small one.
+/// Share of triangles a degree, in percent: the mean over meshes, so that a large mesh counts as much as a small one. None
+/// without meshes.
 fn shares(reports: &[&Report]) -> Vec<f64> {
-    let mut sums = vec![0.0; 60];
+    let mut sums = vec![0.0; if reports.is_empty() { 0 } else { 60 }];
     for report in reports {
         let counts = &report.statistics.min_angle_histogram;
         let total: u64 = counts.iter().sum::<u64>().max(1);

@@ -8,6 +8,7 @@ use crate::mesh::Mesh;
 use crate::quality::angles_deg;
 use plotters::prelude::{Color, DrawingBackend, PathElement, Polygon, RGBColor, Text};
 use plotters::style::text_anchor::{HPos, VPos};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Colours change every 5°: few enough to be told apart, and the picture stays small.
@@ -128,12 +129,14 @@ pub(super) fn draw<DB: DrawingBackend>(area: &Area<DB>, mesh: &Mesh, window: Rec
     let edge = style::stroke(RGBColor(60, 60, 60), 1);
     let within = |ends: &[DVec2; 2]| ends.iter().all(|&end| window.contains(end));
     let points = |ends: [u32; 2]| ends.map(|v| mesh.points[v as usize]);
-    for ends in edges(mesh).into_iter().map(points).filter(within) {
-        let ends = ends.map(|end| view.place(end));
-        let [(ax, ay), (bx, by)] = ends;
-        if (ax - bx).abs().max((ay - by).abs()) >= SHORTEST_EDGE {
-            area.draw(&PathElement::new(ends.to_vec(), edge))?;
-        }
+    let is_shown = |ends: &[u32; 2]| {
+        let [(ax, ay), (bx, by)] = points(*ends).map(|end| view.place(end));
+        within(&points(*ends)) && (ax - bx).abs().max((ay - by).abs()) >= SHORTEST_EDGE
+    };
+    let shown: Vec<[u32; 2]> = edges(mesh).into_iter().filter(is_shown).collect();
+    for trail in trails(&shown) {
+        let places: Vec<_> = trail.iter().map(|&v| view.place(mesh.points[v as usize])).collect();
+        area.draw(&PathElement::new(places, edge))?;
     }
     let line = style::stroke(INK, FINE as u32 + 1);
     let pieces = mesh.pieces.iter().map(|piece| points([piece.a, piece.b]));
@@ -156,6 +159,36 @@ fn edges(mesh: &Mesh) -> Vec<[u32; 2]> {
     edges.sort_unstable();
     edges.dedup();
     edges
+}
+
+/// Walks along edges, each edge in one of them: a drawing of walks is a fifth of the size of one of edges.
+fn trails(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
+    let mut at: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (index, ends) in edges.iter().enumerate() {
+        ends.iter().for_each(|&end| at.entry(end).or_default().push(index));
+    }
+    let mut walked = vec![false; edges.len()];
+    let mut trails = Vec::new();
+    for start in 0..edges.len() {
+        if walked[start] {
+            continue;
+        }
+        let mut trail = vec![edges[start][0]];
+        let mut next = Some(start);
+        while let Some(index) = next {
+            walked[index] = true;
+            let [a, b] = edges[index];
+            let end = if trail.last() == Some(&a) { b } else { a };
+            trail.push(end);
+            let left = at.get_mut(&end);
+            next = left.and_then(|left| {
+                left.retain(|&index| !walked[index]);
+                left.pop()
+            });
+        }
+        trails.push(trail);
+    }
+    trails
 }
 
 /// From the plane to drawing units, y turned over, the same scale in both directions.
@@ -183,5 +216,28 @@ impl View {
             (self.middle.x + moved.x).round() as i32,
             (self.middle.y - moved.y).round() as i32,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trails_walk_along_every_edge_once() {
+        // Two triangles that share an edge, and an edge apart.
+        let edges = [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3], [7, 8]];
+        let trails = trails(&edges);
+        let mut walked: Vec<[u32; 2]> = trails
+            .iter()
+            .flat_map(|trail| {
+                trail
+                    .windows(2)
+                    .map(|pair| [pair[0].min(pair[1]), pair[0].max(pair[1])])
+            })
+            .collect();
+        walked.sort_unstable();
+        assert_eq!(walked, edges);
+        assert!(trails.len() <= 3, "{trails:?}");
     }
 }

@@ -3,13 +3,17 @@
 use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::legend::{Entry, Key, legend};
 use super::panel::{Axis, Panel, log_span, span};
-use super::style;
+use super::style::{self, INK, TITLE};
 use crate::experiment::contest::Contest;
 use crate::experiment::record::Report;
 use crate::experiment::summary::measured;
 use crate::fem::Solution;
-use plotters::prelude::DrawingBackend;
+use plotters::prelude::{DrawingBackend, Text};
+use plotters::style::text_anchor::{HPos, VPos};
 use std::path::Path;
+
+/// Height of the title, in pixels.
+const HEAD: i32 = 40;
 
 /// A number that does not change with size where a mesher makes meshes of one quality.
 pub struct Yield {
@@ -79,14 +83,19 @@ impl Figure for Poisson<'_> {
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
         let (plots, key) = area.split_horizontally((1400 - 370) * FINE);
-        let all = self.contest.all();
-        for (place, (part, wanted)) in plots.split_evenly((2, 2)).iter().zip(&YIELDS).enumerate() {
+        let (head, plots) = plots.split_vertically(HEAD * FINE);
+        let middle = (head.dim_in_pixel().0 as i32 / 2, HEAD * FINE / 2);
+        let look = style::text(TITLE, INK, HPos::Center, VPos::Center);
+        head.draw(&Text::new(self.title.to_string(), middle, look))?;
+        let mut all = self.contest.all();
+        // Who was not there when it was measured has no points.
+        all.retain(|k| YIELDS.iter().any(|wanted| !self.line(*k, wanted.value).is_empty()));
+        for (part, wanted) in plots.split_evenly((2, 2)).iter().zip(&YIELDS) {
             let lines: Vec<_> = all.iter().map(|k| (*k, self.line(*k, wanted.value))).collect();
             let points = || lines.iter().flat_map(|(_, line)| line.iter().copied());
             let x = Axis::log("unknowns", log_span(points().map(|point| point.0))).sparse();
             let y = Axis::linear(wanted.label, span(points().map(|point| point.1)), 6);
-            let title = if place == 0 { self.title } else { "" };
-            let mut panel = Panel::new(part, title, x, y, 86)?;
+            let mut panel = Panel::new(part, "", x, y, 86)?;
             for (k, line) in &lines {
                 let marker = style::method(&self.contest.methods[*k]);
                 panel.line(line, marker.colour, FINE as u32)?;

@@ -30,7 +30,7 @@ pub(super) const VERMILION: RGBColor = RGBColor(213, 94, 0);
 pub(super) const GREEN: RGBColor = RGBColor(0, 158, 115);
 
 /// Okabe and Ito's colours, the black last and the yellow left out since it vanishes on white.
-const CATEGORIES: [RGBColor; 7] = [
+pub(super) const CATEGORIES: [RGBColor; 7] = [
     BLUE,
     VERMILION,
     GREEN,
