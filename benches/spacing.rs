@@ -7,7 +7,10 @@ use biting::domain::{Domain, gallery};
 use biting::geometry::{DVec2, Rect};
 use biting::meshers::biting::Biting;
 use biting::meshers::{Mesher, Request, Trace};
-use biting::spacing::{Expression, Options, Spacing, Uniform, background, build, integrate, lfs_of, limit};
+use biting::spacing::{
+    Expression, Hessian, Lfs, Limited, Options, Spacing, Tolerance, Uniform, background, build, integrate, lfs_of,
+    limit, of_samples,
+};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -32,6 +35,13 @@ fn places(domain: &Domain) -> Vec<DVec2> {
     (0..mesh.triangles.len().min(100_000)).map(centre).collect()
 }
 
+/// lfs at every tenth of the points, as sizes there.
+fn sizes(points: &[DVec2], lfs: &Lfs) -> Limited {
+    let points: Vec<DVec2> = points.iter().copied().step_by(10).collect();
+    let values: Vec<f64> = points.iter().map(|&x| lfs.at(x)).collect();
+    of_samples(ALPHA, &points, &values).expect("lfs is positive")
+}
+
 fn evaluate(points: &[DVec2], f: impl Fn(DVec2) -> f64) -> f64 {
     points.iter().map(|&x| f(x)).sum()
 }
@@ -45,6 +55,13 @@ fn evaluations(criterion: &mut Criterion) {
         max: DVec2::ONE,
     };
     let waves = Expression::new("0.004*(1+0.5*sin(20*x)*sin(20*y))", unit).expect("the formula is one");
+    let tolerance = Tolerance {
+        eps: 0.02,
+        min: None,
+        max: Some(0.5),
+    };
+    let front = Hessian::new("tanh((x+y-1)/0.1)", &tolerance, unit).expect("the formula is one");
+    let sizes = sizes(&points, lfs.as_ref());
     let mut group = criterion.benchmark_group("evaluate");
     group.throughput(Throughput::Elements(points.len() as u64));
     group.bench_function("nearest-segment", |b| {
@@ -56,6 +73,8 @@ fn evaluations(criterion: &mut Criterion) {
     });
     group.bench_function("lfs", |b| b.iter(|| evaluate(&points, |x| lfs.at(x))));
     group.bench_function("expression", |b| b.iter(|| evaluate(&points, |x| waves.at(x))));
+    group.bench_function("hessian", |b| b.iter(|| evaluate(&points, |x| front.at(x))));
+    group.bench_function("points", |b| b.iter(|| evaluate(&points, |x| sizes.at(x))));
     for alpha in [0.1, ALPHA, 0.5] {
         let limited = limit(lfs.clone(), &domain, alpha, 0.9).expect("lfs is positive");
         group.bench_function(BenchmarkId::new("limited-lfs", alpha), |b| {
@@ -75,6 +94,8 @@ fn builds(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("build");
     group.sample_size(10);
     group.bench_function("lfs", |b| b.iter(|| black_box(lfs_of(&domain))));
+    let points = places(&domain);
+    group.bench_function("points", |b| b.iter(|| black_box(sizes(&points, &lfs))));
     for alpha in [0.1, ALPHA, 0.5] {
         group.bench_function(BenchmarkId::new("limited-lfs", alpha), |b| {
             b.iter(|| limit(lfs.clone(), &domain, alpha, 0.9).map(|f| f.lipschitz()));
