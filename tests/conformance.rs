@@ -175,6 +175,7 @@ fn kinds(field: &str, sizes: &str, mesh: &str) -> Vec<String> {
     let u = "tanh((x+y-1)/0.2)";
     vec![
         "lfs".into(),
+        "lfs:geodesic".into(),
         "uniform:0.1".into(),
         "expr:0.05+0.1*x^2".into(),
         format!("hessian:{u};eps=0.02"),

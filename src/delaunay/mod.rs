@@ -6,10 +6,13 @@
 //! arithmetic is in exact predicates, so a boundary point that rounding moved off its segment by an ulp leaves no hole
 //! and no sliver: the domain meshed is the one whose boundary is the pieces.
 //!
+//! [`Reach`] searches the triangulation of the domain alone for what discs reach inside it.
 //! [`Refinable`] starts from the same triangulation and takes points one at a time, for refinement.
 
+mod reach;
 mod refinable;
 
+pub use reach::{Feature, Part, Reach};
 pub use refinable::{Around, Cavity, Location, Refinable, following};
 
 mod cavities;

@@ -298,6 +298,10 @@ impl Store {
             let mut built = spacing::build_with(&spec, &site.domain, &options, || Ok(site.lfs.clone()))
                 .map_err(told(&site.domain))?;
             let mut rounds = Vec::new();
+            if cell.adapt.is_some() && built.function.is_geodesic() {
+                let message = "does not go with adaptation, which caps each round by lfs; use lfs as spacing";
+                return Err(told(&site.domain)(SpacingError::Geodesic { message }));
+            }
             if cell.adapt.is_some() {
                 let factor = options.limit_factor;
                 let adapted = adapt::run(

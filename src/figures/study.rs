@@ -14,7 +14,7 @@ use crate::mesh::Mesh;
 use crate::meshers::{MESHERS, Parameters, Request, Trace};
 use crate::quality::angles_deg;
 use crate::report::{grids, ours};
-use crate::spacing::{self, Ingredients, Options, Spacing, Spec, lfs_of};
+use crate::spacing::{self, Ingredients, Options, Spec, lfs_of};
 use serde_json::Value;
 
 /// The measured smallest angle against the bound.

@@ -182,6 +182,19 @@ fn from_parameters<M: Mesher + serde::de::DeserializeOwned + 'static>(
     Ok(Box::new(mesher))
 }
 
+/// Refuses a spacing whose Lipschitz constant is by distances inside the domain, for a method that counts on it across the
+/// outside too.
+pub(crate) fn refuse_geodesic(spacing: &dyn Spacing) -> Result<(), MeshError> {
+    if !spacing.is_geodesic() {
+        return Ok(());
+    }
+    Err(MeshError::Declined(
+        "this method takes sizes on both sides of an outside gap for similar, and lfs:geodesic does not keep them so; use \
+         lfs as spacing, or the mesher biting or delaunay-refinement"
+            .into(),
+    ))
+}
+
 /// What is asked of a mesher besides domain and spacing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {

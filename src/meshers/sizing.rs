@@ -5,6 +5,7 @@ use crate::domain::Domain;
 use crate::geometry::{DVec2, tolerance};
 use crate::mesh::Mesh;
 use crate::spacing::Spacing;
+use std::f64::consts::SQRT_2;
 
 /// s as every mesher asks for it: equal work for all.
 #[derive(Clone, Copy)]
@@ -63,7 +64,10 @@ impl<'a> Sizing<'a> {
     /// they rely on it: of a new vertex and those near it.
     pub fn agree(&self, points: [DVec2; 2], sizes: [f64; 2]) -> Result<(), MeshError> {
         let change = (sizes[0] - sizes[1]).abs();
-        let allowed = self.t() * points[0].distance(points[1]) + tolerance::CERTIFICATE * sizes[0].max(sizes[1]);
+        // Around a right angle the way inside the domain is longer by √2.
+        let longer = if self.spacing.is_geodesic() { SQRT_2 } else { 1.0 };
+        let allowed =
+            longer * self.t() * points[0].distance(points[1]) + tolerance::CERTIFICATE * sizes[0].max(sizes[1]);
         if change > allowed + self.slack {
             return Err(MeshError::NotLipschitz {
                 points,

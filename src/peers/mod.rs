@@ -128,6 +128,7 @@ impl Mesher for Peer {
         request: &Request,
         trace: &mut Trace,
     ) -> Result<Mesh, MeshError> {
+        crate::meshers::refuse_geodesic(spacing)?;
         let folder = tempfile::Builder::new()
             .prefix("biting-peer-")
             .tempdir()

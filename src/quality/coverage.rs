@@ -25,7 +25,7 @@ pub fn packing_check(sizes: &Sizes) -> Check {
         for disc in &discs[range] {
             let mut broken = 0;
             sizes.circles.meeting(disc.centre, disc.radius, |other| {
-                if other.id != disc.id {
+                if other.id != disc.id && sizes.are_joined(disc, other) {
                     broken += usize::from(see_pair(&mut packing, disc, other, c_p, sizes));
                 }
                 break_if(broken == MOST_BROKEN)
@@ -53,16 +53,16 @@ fn circles_check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
         let mut arcs = Vec::new();
         for disc in &discs[range] {
             let is_asked = open.as_ref().is_none_or(|open| passes_through(disc, open));
-            let gap = if is_asked {
-                gap_on(disc, &mut arcs, subject.domain, sizes)
-            } else {
-                0.0
+            let gap = match &sizes.reached {
+                _ if !is_asked => 0.0,
+                Some(reached) if reached.is_parted(disc, sizes) => reached::gap_on(disc, subject.domain, sizes),
+                _ => gap_on(disc, &mut arcs, subject.domain, sizes),
             };
             covering.see(gap, disc.centre, gap > 0.0);
         }
         covering
     });
-    let covering = Tally::all(Worst::Largest, parts).join(along_segments(subject, &sizes.circles));
+    let covering = Tally::all(Worst::Largest, parts).join(along_segments(subject, sizes));
     let coverage = covering.check("coverage", "Theorem 5.5", sizes.applies("coverage"), 0.0);
     if coverage.holds {
         Check { at: None, ..coverage }
@@ -88,7 +88,9 @@ fn open_triangles(subject: &Subject, sizes: &Sizes) -> DiscTree {
             .fold(f64::INFINITY, f64::min);
         // Every point of a triangle is within its circumradius of a corner.
         let is_plain = shape::circumcentre(corners).distance(corners[0]) <= smallest;
-        let is_open = !is_plain && !is_covered(corners, &sizes.circles, QUARTERINGS);
+        // Where circles count only for what they reach, a disc that holds a part need not cover it.
+        let is_covered = || sizes.reached.is_none() && is_covered(corners, &sizes.circles, QUARTERINGS);
+        let is_open = !is_plain && !is_covered();
         is_open.then(|| disc_around(corners))
     });
     DiscTree::new(open.into_iter().flatten())
@@ -220,7 +222,7 @@ fn largest_gap(disc: &Disc, arcs: &mut [(f64, f64)], domain: &Domain) -> f64 {
 }
 
 /// Input segments are covered along their length: the longest uncovered stretch of each piece, over the piece's length.
-fn along_segments(subject: &Subject, circles: &DiscTree) -> Tally {
+fn along_segments(subject: &Subject, sizes: &Sizes) -> Tally {
     let points = &subject.mesh.points;
     let edges = subject.adjacency.edges().iter().zip(&subject.boundary.segment);
     let pieces = edges
@@ -232,7 +234,7 @@ fn along_segments(subject: &Subject, circles: &DiscTree) -> Tally {
     let parts = parallel::map_ranges(pieces.len(), |range| {
         let mut tally = Tally::new(Worst::Largest);
         for ends in &pieces[range] {
-            let (gap, at) = uncovered_stretch(*ends, circles);
+            let (gap, at) = uncovered_stretch(*ends, &sizes.circles, |id, x| sizes.counts(id, x));
             tally.see(gap, at, gap > 0.0);
         }
         tally
@@ -240,8 +242,9 @@ fn along_segments(subject: &Subject, circles: &DiscTree) -> Tally {
     Tally::all(Worst::Largest, parts)
 }
 
-/// The longest uncovered stretch of a segment (of equals the first), over the segment's length, and its middle.
-fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
+/// The longest uncovered stretch of a segment (of equals the first), over the segment's length, and its middle. Of discs, by
+/// number, those cover a point that count there.
+fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree, counts: impl Fn(u32, DVec2) -> bool) -> (f64, DVec2) {
     let (middle, direction) = (a.midpoint(b), b - a);
     let length = direction.length();
     let along = direction / length;
@@ -250,7 +253,7 @@ fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
         let offset = disc.centre - a;
         let (foot, off) = (offset.dot(along), offset.perp_dot(along));
         let half = (disc.radius - off.abs()) * (disc.radius + off.abs());
-        if half >= 0.0 {
+        if half >= 0.0 && counts(disc.id, a + along * foot.clamp(0.0, length)) {
             stretches.push((foot - half.sqrt(), foot + half.sqrt()));
         }
         break_if(stretches.last().is_some_and(|&(from, to)| from <= 0.0 && to >= length))
@@ -268,5 +271,6 @@ fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
 }
 
 mod eaten;
+mod reached;
 #[cfg(test)]
 mod tests;

@@ -42,6 +42,14 @@
 //!
 //! `packing-disjoint` and `vertices-upper` are as they were, and `boundary-height` is only measured.
 //!
+//! # Distances inside the domain
+//! Where the spacing is Lipschitz in those ([`Spacing::is_geodesic`]), f ≤ lfs means [`crate::spacing::GeodesicLfs`], and circles and
+//! vertices count only for what they reach ([`crate::delaunay::Reach`], found from the domain alone): `packing-disjoint` looks
+//! at pairs of vertices of which a disc around the one with the larger spacing through the other reaches it; for `coverage` a
+//! point is in a circle that reaches it; nn is the smallest radius with which a disc reaches another vertex, or two. Besides
+//! what the table says, all bounds need t ≤ √2 − 1, the rule of the paper, and no vertex with an angle under 90° inside and one
+//! under 180° outside. The docs of biting have the proof.
+//!
 //! `low_head_on` counts the input segments that the circles of their two input vertices cover between them, meeting
 //! lower than (9): a case that the paper excludes without saying so, possible only where c_b + t > 1 (`protection.rs`
 //! has the reason).
@@ -74,6 +82,7 @@ mod gaps;
 mod parallel;
 mod promises;
 mod protection;
+mod reached;
 mod shape;
 mod spread;
 mod statistics;
@@ -87,9 +96,9 @@ pub use shape::{angles_deg, circumcentre};
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::spacing::{FLAT_T, Rule, Spacing};
+use crate::spacing::{FLAT_T, GEODESIC_T, Rule, Spacing};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// 5th, 50th and 95th percentile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -259,6 +268,11 @@ pub struct Hypotheses {
     pub low_head_on: usize,
     /// Whether every vertex with an angle under 90° inside has no other angle inside.
     pub single_corners: bool,
+    /// Whether f is Lipschitz in distances inside the domain, and lfs is meant so.
+    pub is_geodesic: bool,
+    /// Whether a vertex with an angle under 90° inside, which has no circle where corners are cut off, may hide points: whether it
+    /// has an angle under 180° outside.
+    pub corners_hide: bool,
 }
 
 impl Hypotheses {
@@ -272,6 +286,8 @@ impl Hypotheses {
             smallest_segment_angle_deg: domain.smallest_segment_angle_deg(),
             low_head_on,
             single_corners: has_single_corners(domain),
+            is_geodesic: bounds.spacing.is_geodesic(),
+            corners_hide: corners_hide(domain),
         }
     }
 
@@ -307,6 +323,9 @@ impl Hypotheses {
 
     /// Whether a claim follows from them for a mesh made by biting.
     pub fn imply(&self, claim: &str) -> bool {
+        if self.is_geodesic && (self.rule == Rule::Later || self.t > GEODESIC_T || self.corners_hide) {
+            return false;
+        }
         match claim {
             "packing-disjoint" | "vertices-upper" => self.vertices_apart(),
             "coverage" | "vertices-lower" => self.t < 1.0,
@@ -317,6 +336,14 @@ impl Hypotheses {
             _ => self.vertices_apart() && self.t < 1.0,
         }
     }
+}
+
+fn corners_hide(domain: &Domain) -> bool {
+    (0..domain.vertices().len()).any(|v| {
+        let wedges = domain.wedges(v);
+        let is_cut = wedges.iter().any(|wedge| wedge.inside && wedge.angle < FRAC_PI_2);
+        is_cut && wedges.iter().any(|wedge| !wedge.inside && wedge.angle < PI)
+    })
 }
 
 fn has_single_corners(domain: &Domain) -> bool {

@@ -27,7 +27,7 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> Vec<Check> {
     });
     let nn = |at: DVec2, f: f64| {
         Some(Sample {
-            nn: sizes.circles.second_nearest(at),
+            nn: sizes.second_nearest(at),
             f,
             at,
         })

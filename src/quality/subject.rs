@@ -4,6 +4,7 @@ use super::boundary::Boundary;
 use super::discs::DiscTree;
 use super::promises::Promises;
 use super::protection::Heights;
+use super::reached::Reached;
 use super::{Bounds, Hypotheses, parallel, shape};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
@@ -37,6 +38,8 @@ pub struct Sizes<'a> {
     pub circumcentres: Vec<Option<(DVec2, f64)>>,
     /// The biting circles, enlarged by [`CERTIFICATE`].
     pub circles: DiscTree,
+    /// What circles reach inside the domain, where distances are measured there.
+    pub reached: Option<Reached>,
     /// Distance from each mesh vertex to the nearest other one.
     pub nn: Vec<f64>,
     /// How high the circles of neighbouring boundary vertices meet.
@@ -103,6 +106,11 @@ fn midpoint(mesh: &Mesh, adjacency: &Adjacency, e: usize) -> DVec2 {
     a.midpoint(b)
 }
 
+fn second_nearest(circles: &DiscTree, reached: Option<&Reached>, x: DVec2) -> f64 {
+    let nearest = circles.second_nearest(x);
+    reached.map_or(nearest, |reached| reached.second_nearest(circles, x, nearest))
+}
+
 impl<'a> Sizes<'a> {
     fn new(domain: &Domain, mesh: &Mesh, adjacency: &Adjacency, boundary: &Boundary, bounds: Bounds<'a>) -> Self {
         let at = |x: DVec2| bounds.spacing.at(x);
@@ -114,7 +122,10 @@ impl<'a> Sizes<'a> {
         });
         let radius = |f: &f64| bounds.c_b * f * (1.0 + CERTIFICATE);
         let circles = DiscTree::new(mesh.points.iter().copied().zip(at_vertex.iter().map(radius)));
-        let nn = parallel::map(mesh.points.len(), |k| circles.second_nearest(mesh.points[k]));
+        let reached = (bounds.spacing.is_geodesic()).then(|| Reached::new(domain, &circles));
+        let nn = parallel::map(mesh.points.len(), |k| {
+            second_nearest(&circles, reached.as_ref(), mesh.points[k])
+        });
         let heights = Heights::measure(domain, mesh, adjacency, boundary, &bounds, &at_vertex);
         Self {
             bounds,
@@ -123,9 +134,21 @@ impl<'a> Sizes<'a> {
             at_midpoint,
             circumcentres,
             circles,
+            reached,
             nn,
             heights,
         }
+    }
+
+    /// Distance from `x` to the second nearest mesh vertex; where distances are measured inside the domain, the radius with which
+    /// a disc reaches two.
+    pub fn second_nearest(&self, x: DVec2) -> f64 {
+        second_nearest(&self.circles, self.reached.as_ref(), x)
+    }
+
+    /// Whether what the circle of a vertex holds of the domain counts at its point `x`.
+    pub fn counts(&self, id: u32, x: DVec2) -> bool {
+        self.reached.as_ref().is_none_or(|reached| reached.counts(id, x))
     }
 
     /// t as the checks use it.

@@ -53,6 +53,21 @@ impl Spacing for Min {
         self.parts.iter().map(|part| part.lipschitz()).fold(0.0, f64::max)
     }
 
+    fn is_geodesic(&self) -> bool {
+        // No way inside the domain is shorter than the straight line, so that those of the others hold too.
+        self.parts.iter().any(|part| part.is_geodesic())
+    }
+
+    fn in_plane(&self) -> Option<Arc<dyn Spacing>> {
+        let parts: Vec<_> = self.parts.iter().map(|part| part.in_plane()).collect();
+        let is_any = parts.iter().any(Option::is_some);
+        let each = parts
+            .into_iter()
+            .zip(&self.parts)
+            .map(|(plane, part)| plane.unwrap_or_else(|| part.clone()));
+        is_any.then(|| Arc::new(Self { parts: each.collect() }) as Arc<dyn Spacing>)
+    }
+
     fn lower_bound(&self, cell: Rect) -> f64 {
         self.lowest(|part| part.lower_bound(cell))
     }
@@ -83,6 +98,15 @@ impl Spacing for Scaled {
 
     fn lipschitz(&self) -> f64 {
         self.factor * self.inner.lipschitz()
+    }
+
+    fn is_geodesic(&self) -> bool {
+        self.inner.is_geodesic()
+    }
+
+    fn in_plane(&self) -> Option<Arc<dyn Spacing>> {
+        let inner = self.inner.in_plane()?;
+        Some(Arc::new(Self::new(self.factor, inner)))
     }
 
     fn lower_bound(&self, cell: Rect) -> f64 {

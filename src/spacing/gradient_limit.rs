@@ -28,7 +28,7 @@
 use super::cover::{Cell, DEPTH};
 use super::limited::{Branch, Limited};
 use super::samples::Samples;
-use super::{Scaled, Spacing, SpacingError};
+use super::{Scaled, Spacing, SpacingError, geodesic};
 use crate::domain::Domain;
 use crate::geometry::tolerance::LOWER_BOUND;
 use crate::geometry::{DVec2, Rect};
@@ -41,7 +41,7 @@ const MAX_CELLS: usize = 12_000_000;
 /// A function at most `function` on Ω, at least `factor` of the largest α-Lipschitz one below it, and α-Lipschitz.
 ///
 /// Where α ≥ λ, the constant of `function` itself, that is `function`; where α ≥ factor · λ it is (α / λ) · `function`;
-/// otherwise it is a [`Limited`].
+/// otherwise it is a [`Limited`], or a [`geodesic::GeodesicLimited`] where distances are measured inside the domain.
 ///
 /// # Errors
 /// [`SpacingError::NotPositive`] where `function` is not positive on Ω, [`SpacingError::Unresolved`] where it is too small
@@ -60,6 +60,9 @@ pub fn limit(
         } else {
             Arc::new(Scaled::new(alpha / own, function))
         });
+    }
+    if function.is_geodesic() {
+        return Ok(Arc::new(geodesic::limit(function.as_ref(), domain, alpha, factor)?));
     }
     Ok(Arc::new(envelope(
         function.as_ref(),
@@ -84,6 +87,11 @@ pub fn background(
     let factor = 1.0 - error;
     if alpha >= factor * function.lipschitz() {
         return limit(function, domain, alpha, factor);
+    }
+    if function.is_geodesic() {
+        return Err(SpacingError::Geodesic {
+            message: "has a background mesh of its own once it is limited; leave out the background quadtree",
+        });
     }
     let limited = envelope(function.as_ref(), domain, [alpha, factor], MAX_CELLS)?;
     Ok(Arc::new(limited.listed(domain)))

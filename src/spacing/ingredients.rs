@@ -4,8 +4,8 @@
 use super::field::Nodal;
 use super::grammar::GrammarError;
 use super::{
-    EdgeLength, Expression, Hessian, Lfs, Min, NearestNeighbour, Options, Scaled, Spacing, SpacingError, Spec, Uniform,
-    of_samples,
+    EdgeLength, Expression, GeodesicLfs, Hessian, Lfs, Min, NearestNeighbour, Options, Scaled, Spacing, SpacingError,
+    Spec, Uniform, of_samples,
 };
 use crate::domain::Domain;
 use crate::geometry::Rect;
@@ -15,8 +15,8 @@ use std::sync::Arc;
 /// lfs, nsf and gns.
 #[derive(Clone)]
 pub struct Ingredients {
-    /// Where geometry alone asks for; absent where it has no say.
-    pub lfs: Option<Arc<Lfs>>,
+    /// What geometry alone asks for; absent where it has no say.
+    pub lfs: Option<Arc<dyn Spacing>>,
     /// What is asked for beside lfs, if anything is.
     pub nsf: Option<Arc<dyn Spacing>>,
     /// The smaller of the two.
@@ -37,12 +37,21 @@ impl Ingredients {
         lfs: impl FnOnce() -> Result<Arc<Lfs>, SpacingError>,
     ) -> Result<Self, SpacingError> {
         let is_capped = options.lfs_cap || spec.is_capped();
-        let lfs = is_capped.then(lfs).transpose()?;
+        let lfs: Option<Arc<dyn Spacing>> = match is_capped.then(lfs).transpose()? {
+            Some(lfs) if spec.is_geodesic() => Some(Arc::new(GeodesicLfs::new(domain, lfs)?)),
+            Some(lfs) => Some(lfs),
+            None => None,
+        };
         let (mut parts, bounds) = (Vec::new(), domain.bounds());
         collect(spec, bounds, &mut parts)?;
         let nsf = (!parts.is_empty()).then(|| Min::of(parts.clone(), bounds));
-        parts.extend(lfs.clone().map(|lfs| lfs as Arc<dyn Spacing>));
+        parts.extend(lfs.clone());
         let gns = Min::of(parts, bounds);
+        if gns.is_geodesic() && gns.lipschitz().is_infinite() {
+            return Err(SpacingError::Geodesic {
+                message: "needs the others of a min(A, B) to have a Lipschitz constant, and nothing proves one here; use lfs",
+            });
+        }
         Ok(Self {
             lfs,
             nsf,
@@ -55,7 +64,7 @@ impl Ingredients {
 /// The parts of `spec` other than lfs.
 fn collect(spec: &Spec, bounds: Rect, parts: &mut Vec<Arc<dyn Spacing>>) -> Result<(), SpacingError> {
     match spec {
-        Spec::Lfs => {}
+        Spec::Lfs | Spec::GeodesicLfs => {}
         Spec::Uniform(value) => parts.push(Arc::new(Uniform(*value))),
         Spec::Expression(text) => parts.push(Arc::new(Expression::new(text, bounds).map_err(told(text))?)),
         Spec::Hessian(text, tolerance) => {

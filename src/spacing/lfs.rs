@@ -10,8 +10,8 @@
 //! `lfs` is 1-Lipschitz on the whole plane, and nowhere below half the smallest lfs of a vertex.
 //!
 //! # Deviations from the paper
-//! Distances are Euclidean: two arms close in the plane and far along the domain see each other (the paper's footnote
-//! names the geodesic variant).
+//! None. Distances are Euclidean, so that two arms close in the plane and far along the domain see each other; the geodesic
+//! variant that the paper's footnote names is [`super::GeodesicLfs`].
 
 use super::features::{Feature, Features};
 use super::items::Items;

@@ -2,25 +2,31 @@
 //!
 //! A SPEC ([`Spec`]) names a spacing; [`build`] makes of it the f a mesher sees:
 //!
-//! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`Expression`], [`Hessian`] (the nsf of §2.2) and
-//!    [`Nodal`], the same for a field on an earlier mesh, [`EdgeLength`] and [`NearestNeighbour`] of an earlier mesh (§2.1),
-//!    the envelope of sizes at points ([`of_samples`], §2.3), or the [`Min`] of several;
+//! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`GeodesicLfs`] (its footnote), [`Expression`], [`Hessian`] (the
+//!    nsf of §2.2) and [`Nodal`], the same for a field on an earlier mesh, [`EdgeLength`] and [`NearestNeighbour`] of an earlier
+//!    mesh (§2.1), the envelope of sizes at points ([`of_samples`], §2.3), or the [`Min`] of several;
 //! 2. capped by lfs, which gives the gns of §2.3, unless [`Options::lfs_cap`] is off;
 //! 3. limited to the Lipschitz constant [`Options::alpha`] by [`limit`] (§2.3).
+//!
+//! With [`GeodesicLfs`] distances are measured inside the domain: it takes the place of lfs in 2, and [`Spacing::lipschitz`] means
+//! the length of ways there. Who counts on it in the plane must ask [`Spacing::is_geodesic`].
 //!
 //! [`integrate`] gives ∫_Ω dA / f², which Lemma 5.10 and Theorem 5.11 measure meshes by.
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
+use std::f64::consts::SQRT_2;
 use std::sync::Arc;
 
 mod background;
 mod combine;
 pub(crate) mod cover;
 mod envelope;
+mod error;
 mod expression;
 mod features;
 mod field;
+mod geodesic;
 mod gradient;
 mod gradient_limit;
 mod grammar;
@@ -51,8 +57,10 @@ mod uniform;
 pub use background::Background;
 pub use combine::{Min, Scaled};
 pub use envelope::of_samples;
+pub use error::SpacingError;
 pub use expression::Expression;
 pub use field::{Nodal, recovered_eigenvalues};
+pub use geodesic::{GeodesicLfs, GeodesicLimited};
 pub use gradient_limit::{background, limit};
 pub use grammar::GrammarError;
 pub use hessian::{Hessian, Tolerance};
@@ -70,6 +78,9 @@ pub use uniform::Uniform;
 /// then grows away from there faster than the spacing would.
 pub const FLAT_T: f64 = 0.05;
 
+/// √2 − 1, the largest t = α c_b for which biting is proved to work with distances inside the domain.
+pub const GEODESIC_T: f64 = SQRT_2 - 1.0;
+
 /// A control spacing function f.
 pub trait Spacing: Send + Sync {
     /// f(x): finite and positive on the domain, in the length unit of the domain.
@@ -78,6 +89,17 @@ pub trait Spacing: Send + Sync {
     /// α: |f(x) − f(y)| ≤ α ‖x − y‖ for all x, y, proved for the function as evaluated, never sampled.
     /// Infinite where nothing is proved; gradient limiting makes it finite.
     fn lipschitz(&self) -> f64;
+
+    /// Whether distances in [`Spacing::lipschitz`] are measured inside the domain: α times the length of the shortest way from x
+    /// to y that stays in it, in place of ‖x − y‖. Circles must then count only for what they reach ([`GeodesicLfs`]).
+    fn is_geodesic(&self) -> bool {
+        false
+    }
+
+    /// Where distances are measured inside the domain: the spacing with lfs as the plane has it, nowhere above this one.
+    fn in_plane(&self) -> Option<Arc<dyn Spacing>> {
+        None
+    }
 
     /// A proved lower bound of f on the closed box: by default what the Lipschitz constant gives from the centre.
     fn lower_bound(&self, cell: Rect) -> f64 {
@@ -88,125 +110,6 @@ pub trait Spacing: Send + Sync {
     fn upper_bound(&self, cell: Rect) -> f64 {
         self.at(cell.centre()) + self.lipschitz() * 0.5 * cell.diagonal()
     }
-}
-
-/// Why there is no spacing, or no integral of it.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SpacingError {
-    /// The text is no SPEC.
-    #[error("spacing `{spec}`, column {column}: {message}")]
-    Parse {
-        /// The text.
-        spec: String,
-        /// Column in characters, from 1.
-        column: usize,
-        /// What is wrong and what to write instead.
-        message: String,
-    },
-    /// A kind of spacing that does not exist.
-    #[error("spacing `{kind}` is unknown; there are {known}")]
-    UnknownKind {
-        /// What was asked for.
-        kind: String,
-        /// What there is.
-        known: String,
-    },
-    /// The mesh that the spacing is to come from will not do.
-    #[error("spacing `{spec}`: {message}")]
-    Mesh {
-        /// The spacing.
-        spec: String,
-        /// What is wrong with its mesh, or with its file.
-        message: String,
-    },
-    /// An option out of its range.
-    #[error("{name} is {value}: it must be {range}")]
-    Option {
-        /// The option.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What it may be.
-        range: &'static str,
-    },
-    /// No two features of the domain are apart, so lfs is nowhere defined.
-    #[error("local feature size needs two features that are not incident; give the domain a second vertex")]
-    NoFeatures,
-    /// f is not positive, or not finite, somewhere on the domain.
-    #[error("spacing is {value:?} at ({x:?}, {y:?}): it must be finite and positive on the domain")]
-    NotPositive {
-        /// What it is there.
-        value: f64,
-        /// Where.
-        x: f64,
-        /// Where.
-        y: f64,
-    },
-    /// f is positive where it was looked at, but no lower bound proves it nearby.
-    #[error(
-        "spacing is {value:?} at ({x:?}, {y:?}), and nothing proves it positive and finite around there; write it so that it \
-         stays above a constant, such as max(1e-3, ...)"
-    )]
-    Unproved {
-        /// What it is there.
-        value: f64,
-        /// Where.
-        x: f64,
-        /// Where.
-        y: f64,
-    },
-    /// f is smaller than coordinates, or the cells of the index, resolve.
-    #[error(
-        "spacing falls to {value:e} near ({x:?}, {y:?}), which is too small to resolve in a domain of this size and place; \
-         join the vertices and segments that nearly touch there, or move them apart"
-    )]
-    Unresolved {
-        /// What it is there.
-        value: f64,
-        /// Where.
-        x: f64,
-        /// Where.
-        y: f64,
-    },
-    /// f is so small on so long a stretch that its integral cannot be resolved.
-    #[error(
-        "spacing is too small near ({x:?}, {y:?}), where it is {value:e}, to integrate 1 / f^2: no mesh so fine could be held; \
-         choose a larger one, or move apart what nearly touches"
-    )]
-    TooSmall {
-        /// What it is there.
-        value: f64,
-        /// Where.
-        x: f64,
-        /// Where.
-        y: f64,
-    },
-    /// The integral was not found to the tolerance.
-    #[error("the integral of 1 / f^2 has relative error {error} where {tolerance} was asked for; ask for less")]
-    NotConverged {
-        /// What was asked for.
-        tolerance: f64,
-        /// What was reached.
-        error: f64,
-    },
-    /// The domain could not be triangulated.
-    #[error(transparent)]
-    Triangulation(#[from] crate::delaunay::TriangulationError),
-    /// Gradient limiting would need too large an index.
-    #[error(
-        "limiting the spacing to Lipschitz constant {alpha} needs more than {cells} cells near ({x}, {y}); choose a larger \
-         t / c_b, a lower limit factor, or a spacing that is not so small there"
-    )]
-    TooManyCells {
-        /// The limit.
-        cells: usize,
-        /// The Lipschitz constant asked for.
-        alpha: f64,
-        /// Where cells were being split.
-        x: f64,
-        /// Where cells were being split.
-        y: f64,
-    },
 }
 
 /// How [`build`] turns a SPEC into the f a mesher sees.

@@ -1,11 +1,12 @@
 //! SPEC: the text that names a spacing.
 //!
 //! ```text
-//! SPEC = lfs | uniform:H | expr:EXPRESSION | hessian:EXPRESSION;eps=E[;min=A][;max=B]
+//! SPEC = lfs | lfs:geodesic | uniform:H | expr:EXPRESSION | hessian:EXPRESSION;eps=E[;min=A][;max=B]
 //!      | field:FILE;eps=E[;min=A][;max=B] | points:FILE[;factor=K][;alpha=A] | el:FILE[;factor=K] | nn:FILE[;factor=K]
 //!      | gns:SPEC | min(SPEC, SPEC, …)
 //! ```
 //! Commas split `min` where no parenthesis of an expression is open; a file's name has no commas, semicolons or parentheses.
+//! `lfs:geodesic` stands alone or in a `min` without `lfs` and `gns`, both of which it would be above.
 
 use super::SpacingError;
 use super::grammar;
@@ -14,8 +15,9 @@ use super::settings;
 use std::fmt;
 
 /// The kinds of SPEC with their arguments, for messages and lists.
-pub const KINDS: [&str; 10] = [
+pub const KINDS: [&str; 11] = [
     "lfs",
+    "lfs:geodesic",
     "uniform:H",
     "expr:EXPRESSION",
     "hessian:EXPRESSION;eps=E",
@@ -32,6 +34,8 @@ pub const KINDS: [&str; 10] = [
 pub enum Spec {
     /// Local feature size (Definition 2.1).
     Lfs,
+    /// Local feature size by distances inside the domain (the footnote of Definition 2.1).
+    GeodesicLfs,
     /// f = H.
     Uniform(f64),
     /// f given by an expression in x and y.
@@ -63,6 +67,7 @@ impl fmt::Display for Spec {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Lfs => out.write_str("lfs"),
+            Self::GeodesicLfs => out.write_str("lfs:geodesic"),
             Self::Uniform(value) => write!(out, "uniform:{value}"),
             Self::Expression(text) => write!(out, "expr:{text}"),
             Self::Hessian(text, tolerance) => write!(out, "hessian:{text}{}", tolerance_text(tolerance)),
@@ -96,16 +101,46 @@ impl Spec {
     /// # Errors
     /// [`SpacingError::Parse`] with the column, [`SpacingError::UnknownKind`] with the kinds there are.
     pub fn parse(text: &str) -> Result<Self, SpacingError> {
-        Reader { whole: text, open: 0 }.spec(0, text.len())
+        let reader = &mut Reader { whole: text, open: 0 };
+        let spec = reader.spec(0, text.len())?;
+        if spec.is_geodesic() && spec.is_euclidean_lfs() {
+            let at = text.find("lfs:geodesic").unwrap_or_default();
+            return Err(reader.error(
+                at,
+                "lfs:geodesic is nowhere below lfs, and so not below gns; leave one of them out",
+            ));
+        }
+        Ok(spec)
     }
 
     /// Whether the spacing is nowhere above lfs by its own definition.
     pub fn is_capped(&self) -> bool {
         match self {
-            Self::Lfs | Self::Gns(_) => true,
+            Self::Lfs | Self::GeodesicLfs | Self::Gns(_) => true,
             Self::Min(parts) => parts.iter().any(Self::is_capped),
             Self::Uniform(_) | Self::Expression(_) | Self::Hessian(..) => false,
             Self::Field(..) | Self::Points { .. } | Self::EdgeLength(..) | Self::NearestNeighbour(..) => false,
+        }
+    }
+}
+
+impl Spec {
+    /// Whether distances are measured inside the domain.
+    pub fn is_geodesic(&self) -> bool {
+        match self {
+            Self::GeodesicLfs => true,
+            Self::Gns(inner) => inner.is_geodesic(),
+            Self::Min(parts) => parts.iter().any(Self::is_geodesic),
+            _ => false,
+        }
+    }
+
+    /// Whether lfs as the plane has it is in it.
+    fn is_euclidean_lfs(&self) -> bool {
+        match self {
+            Self::Lfs | Self::Gns(_) => true,
+            Self::Min(parts) => parts.iter().any(Self::is_euclidean_lfs),
+            _ => false,
         }
     }
 }
@@ -149,6 +184,9 @@ impl Reader<'_> {
         let text = text.trim();
         if text == "lfs" {
             return Ok(Spec::Lfs);
+        }
+        if text == "lfs:geodesic" {
+            return Ok(Spec::GeodesicLfs);
         }
         if let Some(rest) = text.strip_prefix("uniform:") {
             let value: Option<f64> = rest

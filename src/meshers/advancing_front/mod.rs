@@ -239,6 +239,7 @@ impl Mesher for AdvancingFront {
         request: &Request,
         trace: &mut Trace,
     ) -> Result<Mesh, MeshError> {
+        super::refuse_geodesic(spacing)?;
         let sizing = Sizing::new(domain, spacing, request);
         let mut front = Front::new(self, domain, sizing, Monitor::new(&request.budget));
         let pieces = trace.step("boundary", || boundary::boundary(&mut front))?;

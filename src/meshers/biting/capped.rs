@@ -97,6 +97,10 @@ impl Spacing for Capped<'_> {
             self.t / self.c_b
         }
     }
+
+    fn is_geodesic(&self) -> bool {
+        self.inner.is_geodesic()
+    }
 }
 
 #[cfg(test)]

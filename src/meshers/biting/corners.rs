@@ -24,6 +24,7 @@
 
 use super::capped::{Cap, Capped};
 use super::fan::{Edge, Fan, slope_beside};
+use super::inside::Inside;
 use super::{Biting, Corners, HeadOn};
 use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
@@ -110,10 +111,10 @@ impl Cuts {
     pub fn new<'a>(
         biting: &Biting,
         domain: &'a Domain,
-        spacing: &'a dyn Spacing,
+        (spacing, inside): (&'a dyn Spacing, Option<&Inside>),
         request: &Request,
     ) -> Result<(Self, Capped<'a>), MeshError> {
-        let mut plan = Plan::new(biting, domain, spacing, request)?;
+        let mut plan = Plan::new(biting, domain, (spacing, inside), request)?;
         loop {
             let capped = Capped::new(spacing, plan.c_b, plan.t, plan.caps());
             let sizing = Sizing::new(domain, &capped, request);
@@ -153,7 +154,7 @@ impl<'a> Plan<'a> {
     fn new(
         biting: &Biting,
         domain: &'a Domain,
-        spacing: &'a dyn Spacing,
+        (spacing, within): (&'a dyn Spacing, Option<&Inside>),
         request: &Request,
     ) -> Result<Self, MeshError> {
         let sizing = Sizing::new(domain, spacing, request);
@@ -176,24 +177,23 @@ impl<'a> Plan<'a> {
         for v in 0..domain.vertices().len() {
             if inside(domain, v).any(is_small) {
                 let fan = Fan::new(domain, v, t, biting.rule);
-                plan.distances[v] = plan.room(&features, v, &fan)?;
+                let nearest = match within {
+                    Some(within) => within.nearest_apart(domain.vertices()[v]),
+                    None => nearest_apart(&features, domain, v),
+                };
+                plan.distances[v] = plan.room(nearest, v, &fan)?;
                 plan.fans.push((v, fan));
             }
         }
         Ok(plan)
     }
 
-    /// How far from `v` its segments can be cut: as far as features not incident to it and the spacing leave room for, that
-    /// the corner triangles be as large as the triangles beside them.
-    fn room(&self, features: &SegmentIndex, v: usize, fan: &Fan) -> Result<f64, MeshError> {
+    /// How far from `v` its segments can be cut: as far as features not incident to it, the nearest of which is so far away, and
+    /// the spacing leave room for, that the corner triangles be as large as the triangles beside them.
+    fn room(&self, nearest: f64, v: usize, fan: &Fan) -> Result<f64, MeshError> {
         let domain = self.domain;
-        let incident = |s: usize| {
-            let segment = domain.segments().get(s);
-            segment.is_some_and(|segment| segment.a == v || segment.b == v)
-        };
-        let nearest = features.nearest_where(domain.vertices()[v], |s| !incident(s));
         let lengths = domain.wedges(v).iter().map(|wedge| domain.away(wedge.from, v).1);
-        let reach = lengths.fold(nearest.map_or(f64::INFINITY, |(_, distance)| distance), f64::min);
+        let reach = lengths.fold(nearest, f64::min);
         if inside(domain, v).any(|wedge| wedge.angle <= NO_ANGLE) {
             return Err(unresolved(domain.vertices()[v]));
         }
@@ -346,6 +346,16 @@ impl<'a> Plan<'a> {
         cuts.outline = SegmentIndex::new(outline);
         cuts
     }
+}
+
+/// How far it is from `v` to the nearest feature not incident to it.
+fn nearest_apart(features: &SegmentIndex, domain: &Domain, v: usize) -> f64 {
+    let incident = |s: usize| {
+        let segment = domain.segments().get(s);
+        segment.is_some_and(|segment| segment.a == v || segment.b == v)
+    };
+    let nearest = features.nearest_where(domain.vertices()[v], |s| !incident(s));
+    nearest.map_or(f64::INFINITY, |(_, distance)| distance)
 }
 
 fn unresolved(vertex: DVec2) -> MeshError {

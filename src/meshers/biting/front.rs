@@ -13,6 +13,7 @@
 
 use super::Biting;
 use super::corners::Cuts;
+use super::inside::Inside;
 use super::notches::Notches;
 use super::order::{Queue, RANK_STEP, Ticket};
 use super::rule::Meeting;
@@ -76,6 +77,8 @@ pub(super) struct Front<'a> {
     notches: &'a Notches,
     /// For each circle, whether it may hold points that its centre cannot see.
     pub beside_notch: Vec<bool>,
+    /// What circles reach inside the domain, where nothing else counts of them.
+    inside: Option<Inside>,
     pub radii: Sizing<'a>,
     pub rule: Rule,
     /// The biting circles, in the order of bites.
@@ -101,7 +104,7 @@ impl<'a> Front<'a> {
     pub fn new(
         domain: &'a Domain,
         cuts: &'a Cuts,
-        notches: &'a Notches,
+        (notches, inside): (&'a Notches, Option<Inside>),
         spacing: &'a dyn Spacing,
         biting: &Biting,
         request: &Request,
@@ -112,6 +115,7 @@ impl<'a> Front<'a> {
             cuts,
             notches,
             beside_notch: Vec::new(),
+            inside,
             radii,
             rule: biting.rule,
             bitten: DiscGrid::new(radii.t()),
@@ -147,9 +151,11 @@ impl<'a> Front<'a> {
         input.iter().copied().chain(others.map(|disc| disc.centre)).collect()
     }
 
-    /// Whether no notch stands between the centre of a bitten disc and a point that it holds.
+    /// Whether no notch stands between the centre of a bitten disc and a point that it holds and, where distances are measured
+    /// inside the domain, the disc reaches it.
     pub fn sees(&self, id: u32, point: DVec2) -> bool {
-        !self.beside_notch[id as usize] || !self.notches.part(self.bitten.disc(id).centre, point)
+        let is_parted = self.beside_notch[id as usize] && self.notches.part(self.bitten.disc(id).centre, point);
+        !is_parted && self.inside.as_ref().is_none_or(|inside| inside.reaches(id, point))
     }
 
     /// The front once the input boundary is covered: the vertices between boundary circles inside the domain.
@@ -204,6 +210,7 @@ impl<'a> Front<'a> {
         }
         self.first_vertex.push(NONE);
         self.beside_notch.push(self.notches.are_near(self.around_bite(disc)));
+        self.inside.iter_mut().for_each(|inside| inside.add(disc));
         Ok(self.bitten.insert(disc))
     }
 

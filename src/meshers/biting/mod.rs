@@ -28,6 +28,8 @@
 //! With `rule=later` two points keep the distance that the later of them asks for, and the smallest angle is at least
 //! asin((1 − t) / 2): [`rule`] has the theorem, its proof and the other bounds, which the certificate then holds.
 //!
+//! With `lfs:geodesic` circles bite what they reach inside the domain only, and the same bounds hold: [`inside`] has the argument.
+//!
 //! # Cost
 //! O(1) a bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
 //! O(n log n) for the triangulation. By the rule of the later point some ten evaluations of f more a bite, for the roots that
@@ -62,6 +64,7 @@ mod corners;
 mod fan;
 mod front;
 mod gap;
+pub mod inside;
 mod interior;
 mod notches;
 mod order;
@@ -79,6 +82,7 @@ use crate::geometry::DVec2;
 use crate::mesh::{Mesh, Piece};
 use crate::spacing::{Rule, Spacing};
 use corners::Cuts;
+use inside::Inside;
 use notches::Notches;
 use serde::{Deserialize, Serialize};
 
@@ -201,7 +205,10 @@ impl Biting {
                 "biting needs t = alpha c_b below 1, and here it is {t}; limit the spacing's gradient (--t)"
             )));
         }
-        let (cuts, capped) = trace.step("corner_cutting", || Cuts::new(self, domain, spacing, request))?;
+        let inside = Inside::new(self, domain, spacing, t)?;
+        let (cuts, capped) = trace.step("corner_cutting", || {
+            Cuts::new(self, domain, (spacing, inside.as_ref()), request)
+        })?;
         trace.count("corners_cut", cuts.count as f64);
         trace.count("angles_narrowed", cuts.narrowed as f64);
         trace.count("segments_parted", cuts.parted as f64);
@@ -210,7 +217,7 @@ impl Biting {
             Corners::Cut => Notches::new(domain),
         };
         let spacing: &dyn Spacing = if capped.is_empty() { spacing } else { &capped };
-        let mut front = front::Front::new(domain, &cuts, &notches, spacing, self, request);
+        let mut front = front::Front::new(domain, &cuts, (&notches, inside), spacing, self, request);
         front.log = trace.bites.take();
         trace.step("vertex_protection", || boundary::vertex_protection(&mut front))?;
         let pieces = trace.step("edge_protection", || boundary::edge_protection(&mut front))?;

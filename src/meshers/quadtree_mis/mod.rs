@@ -225,6 +225,7 @@ impl Mesher for QuadtreeMis {
         request: &Request,
         trace: &mut Trace,
     ) -> Result<Mesh, MeshError> {
+        super::refuse_geodesic(spacing)?;
         let Packing { centres, pieces, .. } = self.pack(domain, spacing, request, trace)?;
         let mesh = trace.step("triangulate", || triangulate(domain, centres, pieces))?;
         Sizing::new(domain, spacing, request).agree_along_edges(&mesh)?;

@@ -4,6 +4,10 @@ use super::*;
 use crate::domain::gallery;
 use proptest::prelude::*;
 
+fn uncovered_stretch(ends: [DVec2; 2], circles: &DiscTree) -> (f64, DVec2) {
+    super::uncovered_stretch(ends, circles, |_, _| true)
+}
+
 fn disc(x: f64, y: f64, radius: f64) -> Disc {
     Disc {
         centre: DVec2::new(x, y),

@@ -79,6 +79,8 @@ fn any_t_under_1_is_enough_and_circles_may_meet_head_on() {
         smallest_segment_angle_deg: 90.0,
         low_head_on: 3,
         single_corners: true,
+        is_geodesic: false,
+        corners_hide: false,
     };
     assert!(hypotheses(0.99).imply("min-angle") && !hypotheses(1.0).imply("min-angle"));
     assert!(hypotheses(0.5).imply("min-angle-beyond-corners") && !hypotheses(0.6).imply("min-angle-beyond-corners"));

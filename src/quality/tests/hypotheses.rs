@@ -1,6 +1,7 @@
 //! What the bounds need, at the edge of it.
 
 use super::*;
+use crate::domain::InputSegment;
 
 const RIGHT: Hypotheses = Hypotheses {
     t: 0.3,
@@ -10,6 +11,8 @@ const RIGHT: Hypotheses = Hypotheses {
     smallest_segment_angle_deg: 90.0,
     low_head_on: 0,
     single_corners: true,
+    is_geodesic: false,
+    corners_hide: false,
 };
 
 /// The claims that do not follow.
@@ -242,4 +245,64 @@ fn checks_apply_only_under_their_hypotheses() {
     };
     let (_, certificate) = judge(&square, &good, Some(&none));
     assert!(certificate.holds && !certificate.check("coverage").unwrap().holds);
+}
+
+#[test]
+fn distances_inside_the_domain_need_a_small_t_and_the_rule_of_the_paper() {
+    let inside = Hypotheses {
+        is_geodesic: true,
+        ..RIGHT
+    };
+    assert_eq!(missing(inside), missing(RIGHT));
+    let steep = Hypotheses {
+        t: 1.001 * GEODESIC_T,
+        ..inside
+    };
+    let later = Hypotheses {
+        rule: Rule::Later,
+        ..inside
+    };
+    let hiding = Hypotheses {
+        corners_hide: true,
+        ..inside
+    };
+    for none in [steep, later, hiding] {
+        assert_eq!(missing(none), CLAIMS);
+    }
+    assert_eq!(
+        missing(Hypotheses {
+            corners_hide: true,
+            ..RIGHT
+        }),
+        missing(RIGHT)
+    );
+}
+
+/// A corner of 45° and one of 225° at a vertex, with angles outside of 45° each; and without the larger one.
+#[test]
+fn a_corner_hides_what_lies_behind_it_where_the_angle_outside_is_below_180_degrees() {
+    let bounds = Bounds {
+        spacing: &UNIFORM,
+        c_b: 0.5,
+        rule: Rule::Earlier,
+        lfs_cap: true,
+        integral: None,
+        integral_error: 0.0,
+        guaranteed: &[],
+    };
+    let hides = |domain: &Domain| Hypotheses::of(domain, &bounds, 0).corners_hide;
+    let corner = |ends: &[(f64, f64)]| {
+        let mut pslg = Pslg::new("corner");
+        pslg.add_ring(ends.iter().map(|&(x, y)| DVec2::new(x, y)), 1);
+        Domain::new(pslg).expect("a valid domain")
+    };
+    assert!(!hides(&corner(&[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0)])));
+    let mut pslg = Pslg::new("two corners");
+    pslg.add_ring([(0.0, 0.0), (2.0, -0.8), (2.0, 0.8)].map(DVec2::from), 1);
+    let others = [(1.0, 1.0), (-2.0, 2.0), (-2.0, -2.0), (1.0, -1.0)].map(|(x, y)| pslg.add_vertex(DVec2::new(x, y)));
+    let ring: Vec<usize> = std::iter::once(0).chain(others).collect();
+    let sides = (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]));
+    pslg.segments
+        .extend(sides.map(|(a, b)| InputSegment { a, b, marker: 1 }));
+    assert!(hides(&Domain::new(pslg).expect("a valid domain")));
 }

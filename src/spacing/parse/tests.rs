@@ -6,6 +6,8 @@ use super::*;
 fn every_kind_reads_back_as_it_is_written() {
     for (text, canonical) in [
         ("lfs", "lfs"),
+        (" lfs:geodesic", "lfs:geodesic"),
+        ("min(uniform:1,lfs:geodesic )", "min(uniform:1, lfs:geodesic)"),
         (" uniform: 0.10 ", "uniform:0.1"),
         ("expr: 0.1+min(x, y) ", "expr:0.1+min(x, y)"),
         ("min( lfs,uniform:2)", "min(lfs, uniform:2)"),
@@ -37,6 +39,10 @@ fn every_kind_reads_back_as_it_is_written() {
 #[test]
 fn errors_say_the_column_or_the_kinds() {
     let error = |text: &str| Spec::parse(text).unwrap_err().to_string();
+    assert_eq!(
+        error("min(lfs, lfs:geodesic)"),
+        "spacing `min(lfs, lfs:geodesic)`, column 10: lfs:geodesic is nowhere below lfs, and so not below gns; leave one of them out"
+    );
     assert_eq!(
         error("uniform:-1"),
         "spacing `uniform:-1`, column 9: a positive number expected after `uniform:`"
