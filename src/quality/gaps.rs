@@ -10,6 +10,7 @@
 //! the maxima move away from there, by a share of a circle. So the gap is measured at all circumcentres inside the
 //! domain and in the middle of all pieces of segments, and from the largest of these points climbed with shrinking
 //! steps. All points looked at lie in the domain, so the result is never above the true maximum; it may be below.
+//! Where distances are measured inside the domain, circles across the outside count here too, which makes it smaller still.
 
 use super::boundary::NO_SEGMENT;
 use super::parallel;

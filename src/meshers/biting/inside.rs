@@ -6,19 +6,19 @@
 //!
 //! # Theorem
 //! Let f be α-Lipschitz in d, the length of shortest ways inside Ω, let f ≤ lfs_Ω, c_b ≤ 1 and t = α c_b ≤ √2 − 1, and let no
-//! vertex that is cut off have an angle under 180° outside. Then what
-//! the paper proves of biting (Lemmas 5.4, 5.7 and 5.8, Theorems 5.5 and 6.8, with the bounds and the further hypotheses that they have
-//! for distances in the plane) is so in these words: two points keep a distance, or one is near the other, if they *see*
-//! each other, that is if the straight line between them stays in Ω; a circle covers what its centre sees.
+//! vertex that is cut off have an angle under 180° outside. Then what the paper proves of biting (Lemmas 5.4, 5.7 and 5.8,
+//! Theorems 5.5 and 6.8, with their bounds and the further hypotheses that they need in the plane) holds in these words: two
+//! points keep a distance, or one is near the other, if they *see* each other, that is if the straight line between them stays
+//! in Ω; a circle covers what its centre sees.
 //!
 //! # Proof
 //! For x and y that see each other d(x, y) = ‖x − y‖, and the paper's arguments about them stay as they are. So it is to be
 //! shown that its arguments need no other pairs.
 //!
 //! *1. A point that is reached, but not seen, is held by another circle that sees it.* As s ≤ lfs_Ω(x), all features that
-//! R(x, s) meets are incident to one another, so that it meets at most one vertex. Let z in R(x, s) be hidden from x. The shortest
-//! way from x to z in R(x, s) turns at a vertex, so at the only one there is, v; it is not x, since from x nothing is hidden then. Both
-//! x and z see v. The outside angle that hides z is at least 90° (narrower ones are [`super::notches`]), so
+//! R(x, s) meets are incident to one another, so that it meets at most one vertex. Let z in R(x, s) be hidden from x. The
+//! shortest way from x to z in R(x, s) turns at a vertex, so at the only one there is, v, which is not x. Both x and z see v.
+//! The outside angle that hides z is at least 90° (narrower ones are [`super::notches`]), so
 //! ‖x − v‖² + ‖z − v‖² ≤ s². Input vertices are bitten first, so x is not in the circle of v, and with ‖x − v‖ = a s,
 //! a s ≥ s(v) ≥ s − t a s, or a ≥ 1 / (1 + t). Then ‖z − v‖² ≤ (1 − a²) s² ≤ (1 − t a)² s² ≤ s(v)²: the second step asks for
 //! a ≥ 2t / (1 + t²), and 1 / (1 + t) is at least that if t² + 2t ≤ 1. So v's circle holds z.

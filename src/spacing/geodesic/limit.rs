@@ -4,8 +4,8 @@
 //! # Guarantee
 //! * Each is α-Lipschitz in the length d of ways inside Ω, and so is the larger of the two (Lemma 2.3). The first is in the
 //!   plane; the other changes along a way by at most α times its length, triangle by triangle.
-//! * Each is at most f on Ω: the first since lfs is, the other as follows. Let g_i be f at the corners p_i of a triangle and λ the Lipschitz constant of f. At a point
-//!   x = Σ w_i p_i of the triangle, f(x) ≥ Σ w_i (g_i − λ ‖x − p_i‖), and Σ w_i ‖x − p_i‖ ≤ (Σ w_i ‖x − p_i‖²)^½ ≤ D, the radius
+//! * Each is at most f on Ω: the first since lfs is, the other as follows. Let g_i be f at the corners p_i of a triangle and λ
+//!   the Lipschitz constant of f. At a point x = Σ w_i p_i of the triangle, f(x) ≥ Σ w_i (g_i − λ ‖x − p_i‖), and Σ w_i ‖x − p_i‖ ≤ (Σ w_i ‖x − p_i‖²)^½ ≤ D, the radius
 //!   of the smallest circle around the triangle: R² − ‖x − c‖² is what the sum of squares is, with the circumcentre c
 //!   and radius R. So values of at most f − λ D for all triangles at a vertex are low enough, and lowering them
 //!   further ([`Slopes::limit`]) does no harm.
@@ -14,8 +14,12 @@
 //! # How near the largest α-Lipschitz function it comes
 //! It is nowhere below what is made of lfs. Where the other function could be above that by more than a share 1 − k, k being
 //! [`crate::spacing::Options::limit_factor`], its triangles are halved until λ D is at most a share 1 − k of the spacing at
-//! vertices where it is not limited, and α D elsewhere. That gives no proof of a factor, since functions that are linear on
-//! triangles cannot follow the cones and creases of the largest one; the tests measure it.
+//! vertices where it is not limited, and α D elsewhere. That proves no factor, since functions that are linear on triangles
+//! cannot follow the cones and creases of the largest one. On `two-arms`, `comb`, `star` and `l-shape` it was nowhere below 0.45
+//! of a bound of the largest from above, and in sum 1.4 times the triangles or less (the tests hold it to that).
+//!
+//! # Cost
+//! Some ten times what lfs takes to prepare: 10 s in place of 1 s for the 3601 segments of `aegean`.
 
 use super::cones;
 use super::slopes::Slopes;

@@ -130,11 +130,7 @@ fn limited_it_is_below_lipschitz_along_ways_and_near_the_largest() {
             triangles[1] += largest.powi(-2);
         }
         let more = triangles[0] / triangles[1];
-        println!(
-            "{name} {alpha}: {worst:.3} of the largest, {more:.3} times its triangles, {:?}",
-            limited.size()
-        );
-        assert!(worst >= 0.4 && more <= 1.8, "{name} {alpha}: {worst} {more}");
+        assert!(worst >= 0.45 && more <= 1.4, "{name} {alpha}: {worst} {more}");
     }
 }
 
