@@ -35,7 +35,7 @@ pub fn of_samples(alpha: f64, points: &[DVec2], values: &[f64]) -> Result<Limite
     let lowest = |part: &[usize]| part.iter().map(|&k| values[k]).fold(f64::INFINITY, f64::min);
     let around = |part: &[usize]| Rect::around(part.iter().map(|&k| points[k]));
     let mut branches = Vec::with_capacity(2 * points.len());
-    let mut queue = vec![0..points.len()];
+    let mut queue: Vec<_> = std::iter::once(0..points.len()).collect();
     while branches.len() < queue.len() {
         let range = queue[branches.len()].clone();
         let first = queue.len();
