@@ -44,9 +44,9 @@
 //!
 //! # Distances inside the domain
 //! Where the spacing is Lipschitz in those ([`Spacing::is_geodesic`]), f ≤ lfs means [`crate::spacing::GeodesicLfs`], and circles and
-//! vertices count only for what they reach ([`crate::delaunay::Reach`], found from the domain alone): `packing-disjoint` looks
-//! at pairs of vertices of which a disc around the one with the larger spacing through the other reaches it; for `coverage` a
-//! point is in a circle that reaches it; nn is the smallest radius with which a disc reaches another vertex, or two. Besides
+//! vertices count only for what they reach ([`crate::delaunay::Reach`], found from the domain alone): `packing-disjoint` leaves
+//! out pairs of vertices of which the circle of the one with the larger spacing holds the other without reaching it; for
+//! `coverage` a point is in a circle that reaches it; nn is the smallest radius with which a disc reaches another vertex, or two. Besides
 //! what the table says, all bounds need t ≤ √2 − 1, the rule of the paper, and no vertex with an angle under 90° inside and one
 //! under 180° outside. The docs of biting have the proof.
 //!

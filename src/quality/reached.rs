@@ -88,16 +88,14 @@ impl Reached {
 }
 
 impl Sizes<'_> {
-    /// Whether two vertices keep a distance from each other: always, unless distances are measured inside the domain, and a
-    /// disc around the one with the larger spacing through the other does not reach that.
+    /// Whether two vertices must keep a distance from each other: always, unless distances are measured inside the domain, and
+    /// the circle of the one with the larger spacing holds the other without reaching it.
     pub fn are_joined(&self, one: &Disc, other: &Disc) -> bool {
         let [larger, smaller] = match one.radius >= other.radius {
-            true => [one.centre, other.centre],
-            false => [other.centre, one.centre],
+            true => [one, other],
+            false => [other, one],
         };
-        let joins = |reach: &Reach| reach.joins(larger, smaller);
-        self.reached
-            .as_ref()
-            .is_none_or(|reached| reached.reach.as_ref().is_some_and(joins))
+        let is_held = larger.centre.distance(smaller.centre) <= larger.radius;
+        !is_held || self.counts(larger.id, smaller.centre)
     }
 }
