@@ -9,6 +9,7 @@ use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
 use crate::spacing::{Ingredients, Spacing};
 use plotters::prelude::{Color, DrawingBackend, PathElement, Rectangle};
+use std::ops::Range;
 use std::path::Path;
 
 /// Rows and columns of the raster, along the longer side of the domain; the colours.
@@ -55,6 +56,8 @@ struct Maps<'a> {
     domain: &'a Domain,
     titles: Vec<&'a str>,
     rasters: Vec<Vec<Option<f64>>>,
+    /// From the smallest to the largest value on any map.
+    span: Range<f64>,
     columns: usize,
     rows: usize,
 }
@@ -70,27 +73,29 @@ impl<'a> Maps<'a> {
             .map(|x| domain.contains(x).then_some(x))
             .collect();
         let raster = |f: &dyn Spacing| centres.iter().map(|x| x.map(|x| f.at(x))).collect();
+        let rasters: Vec<Vec<Option<f64>>> = maps.iter().map(|map| raster(map.1)).collect();
         Self {
             domain,
             titles: maps.iter().map(|map| map.0).collect(),
-            rasters: maps.iter().map(|map| raster(map.1)).collect(),
+            span: log_span(rasters.iter().flatten().flatten().copied()),
+            rasters,
             columns,
             rows,
         }
     }
 
-    /// From the smallest to the largest value on any map.
-    fn span(&self) -> std::ops::Range<f64> {
-        log_span(self.rasters.iter().flatten().flatten().copied())
+    /// How far up the colours a value stands, from 0 to 1.
+    fn share(&self, value: f64) -> f64 {
+        (value / self.span.start).ln() / (self.span.end / self.span.start).ln()
     }
 
     fn panel<DB: DrawingBackend>(&self, area: &Area<DB>, raster: &[Option<f64>]) -> Drawn {
         let bounds = self.domain.bounds();
         let view = View::of(bounds, area.dim_in_pixel());
-        let span = self.span();
         let band = |value: f64| {
-            let share = (value / span.start).ln() / (span.end / span.start).ln();
-            (share * BANDS as f64).floor().clamp(0.0, BANDS as f64 - 1.0) as usize
+            (self.share(value) * BANDS as f64)
+                .floor()
+                .clamp(0.0, BANDS as f64 - 1.0) as usize
         };
         for (j, row) in raster.chunks(self.columns).enumerate() {
             let bands: Vec<Option<usize>> = row.iter().map(|value| value.map(band)).collect();
@@ -119,7 +124,7 @@ impl<'a> Maps<'a> {
 }
 
 /// Cells of a raster over `bounds`, in one row.
-fn cell(bounds: Rect, raster: [usize; 2], columns: std::ops::Range<usize>, row: usize) -> Rect {
+fn cell(bounds: Rect, raster: [usize; 2], columns: Range<usize>, row: usize) -> Rect {
     let step = bounds.size() / DVec2::new(raster[0] as f64, raster[1] as f64);
     Rect {
         min: bounds.min + step * DVec2::new(columns.start as f64, row as f64),
@@ -137,10 +142,8 @@ impl Figure for Maps<'_> {
         for (body, raster) in under_titles(&left, &self.titles)?.iter().zip(&self.rasters) {
             self.panel(body, raster)?;
         }
-        let span = self.span();
-        let share = |value: f64| (value / span.start).ln() / (span.end / span.start).ln();
-        let ticks = Axis::log("", span.clone()).named_ticks();
-        let ticks: Vec<(f64, String)> = ticks.into_iter().map(|(value, words)| (share(value), words)).collect();
+        let ticks = Axis::log("", self.span.clone()).named_ticks().into_iter();
+        let ticks: Vec<(f64, String)> = ticks.map(|(value, words)| (self.share(value), words)).collect();
         colour_bar(&right, "f(x)", 0.0..1.0, &ticks, BANDS)
     }
 }
@@ -161,8 +164,7 @@ mod tests {
         let inside = maps.rasters[0].iter().flatten().count();
         assert_eq!(inside, RASTER * RASTER * 3 / 4);
         let least = maps.rasters[0].iter().flatten().copied().fold(f64::INFINITY, f64::min);
-        let span = maps.span();
-        assert!(span.start <= least && span.end >= 2.0, "{span:?}");
+        assert!(maps.span.start <= least && maps.span.end >= 2.0, "{:?}", maps.span);
         // The lower left cell is the first, and y grows with rows.
         let bounds = domain.bounds();
         assert_eq!(cell(bounds, [4, 4], 0..1, 0).min, bounds.min);

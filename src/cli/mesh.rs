@@ -13,7 +13,7 @@ use crate::experiment::prepare::{Prepared, Store};
 use crate::experiment::record::{Cell, Report};
 use crate::experiment::runner;
 use crate::meshers::{Budget, Entry, MeshError, Mesher, Request};
-use crate::spacing::{self, Ingredients, Options, Spec};
+use crate::spacing::{self, Ingredients, Spec};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -103,14 +103,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// Draws what the spacing is made of.
 fn draw_maps(prepared: &Prepared, stem: &Path) -> Result<[PathBuf; 2], Failure> {
-    let options = Options {
-        lfs_cap: prepared.lfs_cap,
-        ..Options::with_alpha(prepared.spacing.lipschitz())
-    };
     let spec = Spec::parse(&prepared.spec).map_err(Failure::input)?;
     let site = &prepared.site;
     let ingredients =
-        Ingredients::new(&spec, &site.domain, &options, || Ok(site.lfs.clone())).map_err(Failure::input)?;
+        Ingredients::new(&spec, &site.domain, prepared.lfs_cap, || Ok(site.lfs.clone())).map_err(Failure::input)?;
     charts::spacing_maps(&site.domain, &ingredients, &*prepared.spacing, stem).map_err(Failure::input)?;
     Ok(["svg", "png"].map(|ending| stem.with_extension(ending)))
 }

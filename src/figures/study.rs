@@ -14,8 +14,9 @@ use crate::mesh::Mesh;
 use crate::meshers::{MESHERS, Parameters, Request, Trace};
 use crate::quality::angles_deg;
 use crate::report::{grids, ours};
-use crate::spacing::{self, Ingredients, Options, Spec, lfs_of};
+use crate::spacing::{self, Ingredients, Options, Spacing, Spec, lfs_of};
 use serde_json::Value;
+use std::sync::Arc;
 
 /// The measured smallest angle against the bound.
 pub(super) fn angle(material: &Material) -> Result<Drawing<'_>, String> {
@@ -250,14 +251,16 @@ const SOLUTION: &str = "hessian:tanh((x - 0.35*y - 0.1)/0.05);eps=0.02;max=0.5";
 
 /// lfs, nsf, their minimum, and what is left of it once limited.
 pub(super) fn spacing(_: &Material) -> Result<Drawing<'static>, String> {
-    let told = |error: &dyn std::fmt::Display| error.to_string();
-    let domain = domain::load(MAPPED).map_err(|error| told(&error))?;
+    let domain = domain::load(MAPPED).map_err(|error| error.to_string())?;
     let options = Options::new(T, C_B);
-    let spec = Spec::parse(SOLUTION).map_err(|error| told(&error))?;
-    let lfs = || Ok(std::sync::Arc::new(lfs_of(&domain)?));
-    let ingredients = Ingredients::new(&spec, &domain, &options, lfs).map_err(|error| told(&error))?;
-    let f = spacing::build(SOLUTION, &domain, &options).map_err(|error| told(&error))?;
-    let share = decided_by_lfs(&ingredients, &domain);
+    let f = spacing::build(SOLUTION, &domain, &options).map_err(|error| error.to_string())?;
+    let spec = Spec::parse(SOLUTION).map_err(|error| error.to_string())?;
+    let lfs = || Ok(Arc::new(lfs_of(&domain)?));
+    let ingredients = Ingredients::new(&spec, &domain, options.lfs_cap, lfs).map_err(|error| error.to_string())?;
+    let (Some(lfs), Some(nsf)) = (&ingredients.lfs, &ingredients.nsf) else {
+        return Err(format!("{SOLUTION} has no lfs or nothing beside it"));
+    };
+    let share = decided_by(&**lfs, &**nsf, &domain);
     let caption = format!(
         "The control spacing of §2 on `{MAPPED}` for `{SOLUTION}`: lfs, which geometry asks for; nsf, which the second derivatives of u \
          ask for; gns, the smaller of the two; and f, the largest function below it that is α-Lipschitz with α = t / c_b = {}, up \
@@ -281,15 +284,12 @@ pub(super) fn spacing(_: &Material) -> Result<Drawing<'static>, String> {
 /// Points along each side of the box that are asked.
 const ASKED: usize = 300;
 
-/// The share of the domain on which lfs is the smaller.
-fn decided_by_lfs(ingredients: &Ingredients, domain: &Domain) -> f64 {
-    let (Some(lfs), Some(nsf)) = (&ingredients.lfs, &ingredients.nsf) else {
-        return f64::from(u8::from(ingredients.nsf.is_none()));
-    };
+/// The share of the domain on which the first is the smaller.
+fn decided_by(first: &dyn Spacing, second: &dyn Spacing, domain: &Domain) -> f64 {
     let bounds = domain.bounds();
     let place = |k: usize| DVec2::new((k % ASKED) as f64 + 0.5, (k / ASKED) as f64 + 0.5) / ASKED as f64;
     let points = (0..ASKED * ASKED).map(|k| bounds.min + place(k) * bounds.size());
     let inside: Vec<DVec2> = points.filter(|&x| domain.contains(x)).collect();
-    let decided = inside.iter().filter(|&&x| lfs.at(x) <= nsf.at(x)).count();
+    let decided = inside.iter().filter(|&&x| first.at(x) <= second.at(x)).count();
     decided as f64 / inside.len() as f64
 }

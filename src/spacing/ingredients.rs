@@ -4,8 +4,8 @@
 use super::field::Nodal;
 use super::grammar::GrammarError;
 use super::{
-    EdgeLength, Expression, GeodesicLfs, Hessian, Lfs, Min, NearestNeighbour, Options, Scaled, Spacing, SpacingError,
-    Spec, Uniform, of_samples,
+    EdgeLength, Expression, GeodesicLfs, Hessian, Lfs, Min, NearestNeighbour, Scaled, Spacing, SpacingError, Spec,
+    Uniform, of_samples,
 };
 use crate::domain::Domain;
 use crate::geometry::Rect;
@@ -15,28 +15,26 @@ use std::sync::Arc;
 /// lfs, nsf and gns.
 #[derive(Clone)]
 pub struct Ingredients {
-    /// What geometry alone asks for; absent where it has no say.
+    /// What geometry alone asks for, and f is nowhere above; absent where it has no say.
     pub lfs: Option<Arc<dyn Spacing>>,
     /// What is asked for beside lfs, if anything is.
     pub nsf: Option<Arc<dyn Spacing>>,
     /// The smaller of the two.
     pub gns: Arc<dyn Spacing>,
-    /// Whether gns is nowhere above lfs.
-    pub is_capped: bool,
 }
 
 impl Ingredients {
-    /// Of `spec` on `domain`.
+    /// Of `spec` on `domain`, capped by lfs where `lfs_cap` or `spec` says so.
     ///
     /// # Errors
     /// Everything in [`SpacingError`].
     pub fn new(
         spec: &Spec,
         domain: &Domain,
-        options: &Options,
+        lfs_cap: bool,
         lfs: impl FnOnce() -> Result<Arc<Lfs>, SpacingError>,
     ) -> Result<Self, SpacingError> {
-        let is_capped = options.lfs_cap || spec.is_capped();
+        let is_capped = lfs_cap || spec.is_capped();
         let lfs: Option<Arc<dyn Spacing>> = match is_capped.then(lfs).transpose()? {
             Some(lfs) if spec.is_geodesic() => Some(Arc::new(GeodesicLfs::new(domain, lfs)?)),
             Some(lfs) => Some(lfs),
@@ -52,12 +50,7 @@ impl Ingredients {
                 message: "needs the others of a min(A, B) to have a Lipschitz constant, and nothing proves one here; use lfs",
             });
         }
-        Ok(Self {
-            lfs,
-            nsf,
-            gns,
-            is_capped,
-        })
+        Ok(Self { lfs, nsf, gns })
     }
 }
 

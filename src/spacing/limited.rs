@@ -84,7 +84,7 @@ impl Limited {
     }
 
     /// The same function, with lists of what matters of it wherever `domain` is: they take some time to make, and queries on
-    /// coasts are three times as fast for α up to 1/2, and hardly faster beyond.
+    /// coasts are three times as fast for α up to 1/2, and less beyond.
     pub fn listed(mut self, domain: &Domain) -> Self {
         let limited = &self;
         let root = Cell::root(domain).rect;

@@ -51,7 +51,7 @@ mod samples;
 mod settings;
 mod shortlist;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 mod uniform;
 
 pub use background::Background;
@@ -209,11 +209,11 @@ pub fn build_with(
 ) -> Result<Prepared, SpacingError> {
     options.check()?;
     let parsed = Spec::parse(spec)?;
-    let Ingredients { gns, is_capped, .. } = Ingredients::new(&parsed, domain, options, lfs)?;
-    let function = limit(gns, domain, options.alpha, options.limit_factor)?;
+    let made = Ingredients::new(&parsed, domain, options.lfs_cap, lfs)?;
+    let function = limit(made.gns, domain, options.alpha, options.limit_factor)?;
     Ok(Prepared {
         spec: parsed.to_string(),
-        lfs_cap: is_capped,
+        lfs_cap: made.lfs.is_some(),
         alpha: options.alpha,
         function,
     })

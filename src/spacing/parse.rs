@@ -122,9 +122,7 @@ impl Spec {
             Self::Field(..) | Self::Points { .. } | Self::EdgeLength(..) | Self::NearestNeighbour(..) => false,
         }
     }
-}
 
-impl Spec {
     /// Whether distances are measured inside the domain.
     pub fn is_geodesic(&self) -> bool {
         match self {
@@ -182,53 +180,15 @@ impl Reader<'_> {
         let text = &self.whole[from..to];
         let from = from + text.len() - text.trim_start().len();
         let text = text.trim();
-        if text == "lfs" {
-            return Ok(Spec::Lfs);
+        match text {
+            "lfs" => return Ok(Spec::Lfs),
+            "lfs:geodesic" => return Ok(Spec::GeodesicLfs),
+            _ => {}
         }
-        if text == "lfs:geodesic" {
-            return Ok(Spec::GeodesicLfs);
-        }
-        if let Some(rest) = text.strip_prefix("uniform:") {
-            let value: Option<f64> = rest
-                .trim()
-                .parse()
-                .ok()
-                .filter(|value: &f64| value.is_finite() && *value > 0.0);
-            let message = "a positive number expected after `uniform:`";
-            return value
-                .map(Spec::Uniform)
-                .ok_or_else(|| self.error(from + "uniform:".len(), message));
-        }
-        if let Some(rest) = text.strip_prefix("expr:") {
-            self.compiles(rest, from + "expr:".len())?;
-            return Ok(Spec::Expression(rest.trim().into()));
-        }
-        if let Some(rest) = text.strip_prefix("hessian:") {
-            let start = from + "hessian:".len();
-            let (solution, tolerance) = self.tolerance(rest, start)?;
-            self.compiles(solution, start)?;
-            return Ok(Spec::Hessian(solution.trim().into(), tolerance));
-        }
-        if let Some(rest) = text.strip_prefix("field:") {
-            let start = from + "field:".len();
-            let (file, tolerance) = self.tolerance(rest, start)?;
-            return Ok(Spec::Field(self.file(file, start)?, tolerance));
-        }
-        if let Some(rest) = text.strip_prefix("points:") {
-            let start = from + "points:".len();
-            let (file, [factor, alpha]) = self.settings(rest, start, ["factor", "alpha"])?;
-            let file = self.file(file, start)?;
-            return Ok(Spec::Points { file, factor, alpha });
-        }
-        for (kind, make) in [
-            ("el:", Spec::EdgeLength as fn(String, Option<f64>) -> Spec),
-            ("nn:", Spec::NearestNeighbour),
-        ] {
-            if let Some(rest) = text.strip_prefix(kind) {
-                let start = from + kind.len();
-                let (file, [factor]) = self.settings(rest, start, ["factor"])?;
-                return Ok(make(self.file(file, start)?, factor));
-            }
+        if let Some((kind, rest)) = text.split_once(':')
+            && let Some(spec) = self.with_argument(kind, rest, from + kind.len() + 1)?
+        {
+            return Ok(spec);
         }
         if text.starts_with("gns:") {
             let inner = self.nested(from, "gns", |reader| {
@@ -248,6 +208,45 @@ impl Reader<'_> {
             kind: text.into(),
             known: KINDS.join(", "),
         })
+    }
+
+    /// A SPEC of a kind that takes one argument, perhaps with settings, which starts at `start`; none of another kind.
+    fn with_argument(&self, kind: &str, rest: &str, start: usize) -> Result<Option<Spec>, SpacingError> {
+        Ok(Some(match kind {
+            "uniform" => {
+                let value: Option<f64> = rest.trim().parse().ok();
+                let value = value.filter(|value| value.is_finite() && *value > 0.0);
+                let message = "a positive number expected after `uniform:`";
+                Spec::Uniform(value.ok_or_else(|| self.error(start, message))?)
+            }
+            "expr" => {
+                self.compiles(rest, start)?;
+                Spec::Expression(rest.trim().into())
+            }
+            "hessian" => {
+                let (solution, tolerance) = self.tolerance(rest, start)?;
+                self.compiles(solution, start)?;
+                Spec::Hessian(solution.trim().into(), tolerance)
+            }
+            "field" => {
+                let (file, tolerance) = self.tolerance(rest, start)?;
+                Spec::Field(self.file(file, start)?, tolerance)
+            }
+            "points" => {
+                let (file, [factor, alpha]) = self.settings(rest, start, ["factor", "alpha"])?;
+                let file = self.file(file, start)?;
+                Spec::Points { file, factor, alpha }
+            }
+            "el" | "nn" => {
+                let (file, [factor]) = self.settings(rest, start, ["factor"])?;
+                let file = self.file(file, start)?;
+                match kind {
+                    "el" => Spec::EdgeLength(file, factor),
+                    _ => Spec::NearestNeighbour(file, factor),
+                }
+            }
+            _ => return Ok(None),
+        }))
     }
 
     /// What `read` finds one level deeper, for the `name` that stands at `from`.

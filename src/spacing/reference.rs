@@ -12,68 +12,40 @@ use super::Spacing;
 use super::cover::{Cell, DEPTH};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Cells that are looked at for a point: where f rises as fast as α many say nearly the same.
 const BUDGET: usize = 2_000_000;
 
-/// The interval in which the largest `alpha`-Lipschitz function below `f` on `domain` lies at `x`: within a share `gap` where so
-/// many cells as there is patience for are enough.
+/// The interval in which the largest `alpha`-Lipschitz function below a positive `f` on `domain` lies at `x`: within a share `gap`
+/// where so many cells as there is patience for are enough.
 pub fn largest_at(f: &dyn Spacing, domain: &Domain, alpha: f64, x: DVec2, gap: f64) -> [f64; 2] {
     let value = |y: DVec2| f.at(y) + alpha * x.distance(y);
-    // The bound of a part is at least that of the whole.
-    let waiting = |cell: Cell, depth: usize, above: f64| Waiting {
-        bound: (f.lower_bound(cell.rect) + alpha * cell.rect.distance(x)).max(above),
-        cell,
-        depth,
-    };
     let mut most = if domain.contains(x) { f.at(x) } else { f64::INFINITY };
-    let mut pending = BinaryHeap::from([waiting(Cell::root(domain), 0, 0.0)]);
-    for _ in 0..BUDGET {
-        let Some(least) = pending.pop() else {
-            return [most, most];
+    let mut cells = vec![Some((Cell::root(domain), 0))];
+    // The lowest bound first. Bounds are not negative, so that their bits are ordered as they are.
+    let mut waiting = BinaryHeap::from([Reverse((0f64.to_bits(), 0))]);
+    while let Some(Reverse((bits, index))) = waiting.pop() {
+        let above = f64::from_bits(bits);
+        let Some((cell, depth)) = cells[index].take().filter(|_| above < (1.0 - gap) * most) else {
+            return [above.min(most), most];
         };
-        if least.bound >= (1.0 - gap) * most || least.depth == DEPTH {
-            return [least.bound.min(most), most];
+        if depth == DEPTH || cells.len() > BUDGET {
+            return [above.min(most), most];
         }
-        for part in least.cell.split(domain) {
+        for part in cell.split(domain) {
             most = most.min(value(part.point(domain)));
-            let part = waiting(part, least.depth + 1, least.bound);
-            if part.bound < most {
-                pending.push(part);
+            // At least that of the whole.
+            let bound = (f.lower_bound(part.rect) + alpha * part.rect.distance(x)).max(above);
+            if bound < most {
+                waiting.push(Reverse((bound.to_bits(), cells.len())));
+                cells.push(Some((part, depth + 1)));
             }
         }
     }
-    [pending.pop().map_or(most, |least| least.bound.min(most)), most]
+    [most, most]
 }
-
-/// A cell that may hold the point where the minimum is taken; the lowest bound comes first.
-struct Waiting {
-    cell: Cell,
-    depth: usize,
-    bound: f64,
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.bound.total_cmp(&self.bound)
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}
 
 #[cfg(test)]
 mod tests {

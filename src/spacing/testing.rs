@@ -62,8 +62,13 @@ pub fn gallery(name: &str) -> Domain {
 
 /// Points of the domain, the same every time.
 pub fn points_inside(domain: &Domain, count: usize) -> Vec<DVec2> {
+    points_by(domain, count, 11)
+}
+
+/// The same for a seed.
+pub fn points_by(domain: &Domain, count: usize, seed: u64) -> Vec<DVec2> {
     let bounds = domain.bounds();
-    let mut random = Pcg64::seed_from_u64(11);
+    let mut random = Pcg64::seed_from_u64(seed);
     let anywhere = std::iter::repeat_with(|| bounds.min + random_point(&mut random) * bounds.size());
     anywhere.filter(|&x| domain.contains(x)).take(count).collect()
 }

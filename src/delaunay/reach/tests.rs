@@ -1,9 +1,8 @@
 use super::*;
 use crate::domain::{InputSegment, Pslg, gallery};
+use crate::spacing::testing::points_by;
 use crate::spacing::{Spacing, lfs_of};
 use proptest::prelude::*;
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64;
 
 fn two_arms() -> Domain {
     gallery::domain("two-arms").unwrap().unwrap()
@@ -13,20 +12,6 @@ fn ring(name: &str, points: &[(f64, f64)]) -> Domain {
     let mut pslg = Pslg::new(name);
     pslg.add_ring(points.iter().map(|&(x, y)| DVec2::new(x, y)), 1);
     Domain::new(pslg).expect("a valid domain")
-}
-
-/// `count` points of the domain.
-fn points_in(domain: &Domain, count: usize, seed: u64) -> Vec<DVec2> {
-    let mut random = Pcg64::seed_from_u64(seed);
-    let bounds = domain.bounds();
-    let mut points = Vec::new();
-    while points.len() < count {
-        let x = bounds.min + bounds.size() * DVec2::new(random.random(), random.random());
-        if domain.contains(x) {
-            points.push(x);
-        }
-    }
-    points
 }
 
 /// A box with slots cut into it from above, of any width and depth: arms that are close outside.
@@ -122,7 +107,7 @@ fn where_the_domain_touches_itself_discs_go_through_the_vertex() {
         .extend(sides.map(|[a, b]| InputSegment { a, b, marker: 1 }));
     let domain = Domain::new(pslg).expect("a valid domain");
     let (reach, lfs) = (Reach::new(&domain).unwrap(), lfs_of(&domain).unwrap());
-    for x in points_in(&domain, 200, 3) {
+    for x in points_by(&domain, 200, 3) {
         let (found, expected) = (reach.smallest_apart(x), lfs.at(x));
         assert!(found >= expected - 1e-15, "{x}: {found} {expected}");
         if x.x.abs() < 0.3 {
@@ -136,7 +121,7 @@ fn inner_segments_are_crossed() {
     let domain = gallery::domain("unit-square").unwrap().unwrap();
     let reach = Reach::new(&domain).unwrap();
     let lfs = lfs_of(&domain).unwrap();
-    for x in points_in(&domain, 100, 1) {
+    for x in points_by(&domain, 100, 1) {
         assert!((reach.smallest_apart(x) - lfs.at(x)).abs() < 1e-15);
         assert!(reach.part(x, 0.4).is_none());
     }
@@ -153,7 +138,7 @@ proptest! {
         let domain = slotted(&slots);
         let (reach, lfs) = (Reach::new(&domain).unwrap(), lfs_of(&domain).unwrap());
         let step = 0.02;
-        for x in points_in(&domain, 3, seed) {
+        for x in points_by(&domain, 3, seed) {
             let found = reach.smallest_apart(x);
             prop_assert!(found >= lfs.at(x) - 1e-15);
             prop_assert!(flooded(&domain, x, found + 2.5 * step, step), "{x} {found}");
@@ -168,11 +153,11 @@ proptest! {
     ) {
         let domain = slotted(&slots);
         let reach = Reach::new(&domain).unwrap();
-        let points = domain.vertices().iter().copied().chain(points_in(&domain, 60, seed + 1));
+        let points = domain.vertices().iter().copied().chain(points_by(&domain, 60, seed + 1));
         let whole = (0..domain.segments().len()).map(|_| Vec::new());
         let finer = triangulate(&domain, points.collect(), Piece::chains(&domain, whole)).unwrap();
         let finer = Reach::of(&domain, finer);
-        let asked = points_in(&domain, 40, seed);
+        let asked = points_by(&domain, 40, seed);
         for (k, &x) in asked.iter().enumerate() {
             prop_assert!((reach.smallest_apart(x) - finer.smallest_apart(x)).abs() < 1e-14);
             let y = asked[(k + 1) % asked.len()];
@@ -197,7 +182,7 @@ proptest! {
     ) {
         let domain = slotted(&slots);
         let reach = Reach::new(&domain).unwrap();
-        for pair in points_in(&domain, 80, seed).windows(2) {
+        for pair in points_by(&domain, 80, seed).windows(2) {
             // Segments inside the domain only: other ways are made of them.
             let is_inside = (0..=200).all(|k| domain.contains(pair[0].lerp(pair[1], f64::from(k) / 200.0)));
             if is_inside {

@@ -1,25 +1,9 @@
-use super::super::testing::gallery;
+use super::super::testing::{gallery, points_by};
 use super::super::{Options, build, lfs_of, limit as limited};
 use super::slopes::Slopes;
 use super::*;
 use crate::geometry::predicates::{Meeting, segments_meet};
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64;
 use std::sync::Arc;
-
-/// `count` points of the domain.
-fn points_in(domain: &Domain, count: usize, seed: u64) -> Vec<DVec2> {
-    let mut random = Pcg64::seed_from_u64(seed);
-    let bounds = domain.bounds();
-    let mut points = Vec::new();
-    while points.len() < count {
-        let x = bounds.min + bounds.size() * DVec2::new(random.random(), random.random());
-        if domain.contains(x) {
-            points.push(x);
-        }
-    }
-    points
-}
 
 fn sees(domain: &Domain, x: DVec2, y: DVec2) -> bool {
     let crosses = |s: usize| {
@@ -67,7 +51,7 @@ fn it_is_lfs_where_nothing_is_near_across_the_outside_and_larger_elsewhere() {
         let domain = gallery(name);
         let (lfs, inside) = (lfs_of(&domain).unwrap(), lfs_inside(&domain));
         let mut larger = 0;
-        for x in points_in(&domain, 300, 5) {
+        for x in points_by(&domain, 300, 5) {
             let [plane, inside] = [lfs.at(x), inside.at(x)];
             assert!(inside >= plane * (1.0 - 1e-12), "{name} {x}: {inside} {plane}");
             larger += usize::from(inside > plane * (1.0 + 1e-12));
@@ -83,7 +67,7 @@ fn nothing_is_below_half_the_smallest_of_a_vertex() {
     for name in ["two-arms", "comb", "star", "gear"] {
         let domain = gallery(name);
         let lfs = lfs_inside(&domain);
-        assert!(points_in(&domain, 500, 9).iter().all(|&x| lfs.at(x) >= lfs.smallest()));
+        assert!(points_by(&domain, 500, 9).iter().all(|&x| lfs.at(x) >= lfs.smallest()));
         assert_eq!(lfs.lower_bound(domain.bounds()), lfs.smallest());
     }
 }
@@ -103,7 +87,7 @@ fn limited_it_is_below_lipschitz_along_ways_and_near_the_largest() {
         assert_eq!(limited.lipschitz(), alpha);
         // Ways also go over points inside, where the function may be lowest.
         let middles = (0..domain.segments().len()).map(|s| domain.ends(s)[0].midpoint(domain.ends(s)[1]));
-        let points: Vec<DVec2> = points_in(&domain, 120, 11).into_iter().chain(middles).collect();
+        let points: Vec<DVec2> = points_by(&domain, 120, 11).into_iter().chain(middles).collect();
         let ways = ways(&domain, &points);
         let all: Vec<DVec2> = points.iter().chain(domain.vertices()).copied().collect();
         let values: Vec<(f64, f64)> = all.iter().map(|&x| (function.at(x), limited.at(x))).collect();
@@ -138,13 +122,13 @@ fn limited_it_is_below_lipschitz_along_ways_and_near_the_largest() {
 fn bounds_on_cells_are_bounds() {
     let domain = gallery("two-arms");
     let limited = limit(geodesic(&domain).as_ref(), &domain, 1.0 / 3.0, 0.9).unwrap();
-    for x in points_in(&domain, 100, 2) {
+    for x in points_by(&domain, 100, 2) {
         let cell = Rect {
             min: x - DVec2::splat(0.03),
             max: x + DVec2::splat(0.02),
         };
         let [low, high] = [limited.lower_bound(cell), limited.upper_bound(cell)];
-        for y in points_in(&domain, 200, 4)
+        for y in points_by(&domain, 200, 4)
             .into_iter()
             .filter(|&y| cell.contains(y))
             .chain([x])
