@@ -4,8 +4,9 @@
 use crate::scratch;
 use biting::domain::{Domain, load};
 use biting::mesh::Mesh;
-use biting::mesh::files::{read, write};
+use biting::mesh::files::{read, read_points_with_values, read_with_values, write};
 use biting::quality::judge;
+use biting::spacing::{Spacing, of_samples};
 use std::sync::OnceLock;
 
 /// `.node`, after a zero byte `.ele`.
@@ -14,11 +15,13 @@ pub fn triangle(data: &[u8]) {
     let (node, ele) = data.split_at(cut);
     scratch::put("m.ele", ele.get(1..).unwrap_or(&[]));
     check("node", node);
+    check_values("m.node");
 }
 
 /// `.vtu`.
 pub fn vtu(data: &[u8]) {
     check("vtu", data);
+    check_values("m.vtu");
 }
 
 /// `.msh`.
@@ -58,4 +61,23 @@ fn check(ending: &str, data: &[u8]) -> Option<(Mesh, Mesh)> {
     assert_eq!(mesh.points, back.points);
     assert_eq!(mesh.triangles.len(), back.triangles.len());
     Some((mesh, back))
+}
+
+/// Reads values at points, with triangles and without: as many as points and finite, and as sizes they have an envelope.
+fn check_values(name: &str) {
+    let path = scratch::path(name);
+    if let Ok((mesh, values)) = read_with_values(&path) {
+        let (points, same) = read_points_with_values(&path).expect("values that are read with triangles are read without");
+        assert_eq!((points, same), (mesh.points, values));
+    }
+    let Ok((points, values)) = read_points_with_values(&path) else {
+        return;
+    };
+    assert_eq!(points.len(), values.len());
+    assert!(values.iter().all(|value| value.is_finite()));
+    if let Ok(envelope) = of_samples(0.5, &points, &values) {
+        for (point, value) in points.iter().zip(&values) {
+            assert!(envelope.at(*point) <= *value, "above the sample at {point}");
+        }
+    }
 }

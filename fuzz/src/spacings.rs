@@ -1,7 +1,7 @@
 //! Spacing texts.
 
 use biting::geometry::{DVec2, Rect};
-use biting::spacing::{Expression, Spacing, Spec};
+use biting::spacing::{Expression, Hessian, Spacing, Spec, Tolerance};
 
 /// A SPEC: what is read is written so that it reads back.
 pub fn spec(data: &[u8]) {
@@ -12,22 +12,35 @@ pub fn spec(data: &[u8]) {
     }
 }
 
-/// An expression: where it has finite values, its bounds on a cell enclose them.
+/// An expression, as f and as u: where it has finite values, its bounds on a cell enclose them.
 pub fn expression(data: &[u8]) {
     let whole = Rect {
         min: DVec2::new(-1.0, 0.0),
         max: DVec2::new(1.0, 2.0),
     };
-    let Ok(expression) = Expression::new(&String::from_utf8_lossy(data), whole) else {
+    let text = String::from_utf8_lossy(data);
+    let Ok(expression) = Expression::new(&text, whole) else {
         return;
     };
+    check_bounds(&expression, whole);
+    let tolerance = Tolerance {
+        eps: 0.01,
+        min: None,
+        max: None,
+    };
+    let nsf = Hessian::new(&text, &tolerance, whole).expect("what is an f is a u");
+    check_bounds(&nsf, whole);
+}
+
+/// Compares bounds on sixteen cells with values in them.
+fn check_bounds(f: &impl Spacing, whole: Rect) {
     let size = (whole.max - whole.min) / 4.0;
     for k in 0..16 {
         let min = whole.min + size * DVec2::new(f64::from(k % 4), f64::from(k / 4));
         let cell = Rect { min, max: min + size };
-        let (low, high) = (expression.lower_bound(cell), expression.upper_bound(cell));
+        let (low, high) = (f.lower_bound(cell), f.upper_bound(cell));
         for x in [cell.min, cell.centre(), cell.max, min + size * DVec2::new(0.3, 0.8)] {
-            let value = expression.at(x);
+            let value = f.at(x);
             assert!(
                 !value.is_finite() || (low <= value && value <= high),
                 "{value} at {x} is not from {low} to {high}"

@@ -22,7 +22,7 @@ pub use files::{load, read};
 pub use locate::Place;
 pub use pslg::{Fill, InputSegment, Pslg, Region, Source};
 pub use repair::{RepairReport, repair};
-pub use validate::faults;
+pub use validate::{LARGEST_COORDINATE, faults};
 
 /// An input segment between two vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,7 +15,7 @@ const MOST_FAULTS: usize = 1000;
 
 /// Largest coordinate: spade takes 3e60, and products of four of them, as in the in-circle test, stay finite. The advice
 /// names it.
-const LARGEST: f64 = 1e60;
+pub const LARGEST_COORDINATE: f64 = 1e60;
 
 /// Smallest coordinate but 0: spade takes 2e-43, and products of four do not vanish. The advice names it.
 const SMALLEST: f64 = 1e-40;
@@ -111,7 +111,7 @@ impl Report<'_> {
 
     fn numbers(&mut self) {
         let pslg = self.pslg;
-        let fits = |p: DVec2| p.is_finite() && p.abs().max_element() <= LARGEST;
+        let fits = |p: DVec2| p.is_finite() && p.abs().max_element() <= LARGEST_COORDINATE;
         for (v, &p) in pslg.vertices.iter().enumerate() {
             if !fits(p) {
                 self.add(

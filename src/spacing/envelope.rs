@@ -8,12 +8,13 @@
 
 use super::Limited;
 use super::limited::Branch;
+use crate::domain::LARGEST_COORDINATE;
 use crate::geometry::{DVec2, Rect};
 
 /// The envelope of `values` at `points`.
 ///
 /// # Errors
-/// What is wrong: no points, a value that is not positive, places that are not finite, or no finite α.
+/// What is wrong: no points, a value that is not positive, coordinates that no domain may have, or no finite α.
 pub fn of_samples(alpha: f64, points: &[DVec2], values: &[f64]) -> Result<Limited, String> {
     if !(alpha > 0.0 && alpha.is_finite()) {
         return Err(format!(
@@ -24,7 +25,13 @@ pub fn of_samples(alpha: f64, points: &[DVec2], values: &[f64]) -> Result<Limite
         return Err(format!("{} sizes at {} points", values.len(), points.len()));
     }
     for (k, (point, value)) in points.iter().zip(values).enumerate() {
-        if !(point.is_finite() && *value > 0.0 && value.is_finite()) {
+        if !(point.is_finite() && point.abs().max_element() <= LARGEST_COORDINATE) {
+            return Err(format!(
+                "point {k} is at ({:?}, {:?}): coordinates must be finite and at most {LARGEST_COORDINATE:?} in size",
+                point.x, point.y
+            ));
+        }
+        if !(*value > 0.0 && value.is_finite()) {
             return Err(format!(
                 "the size of point {k} at ({}, {}) is {value}: it must be finite and positive",
                 point.x, point.y
@@ -129,7 +136,10 @@ mod tests {
         assert!(refused(f64::INFINITY, &[DVec2::ZERO], &[1.0]).contains("alpha is inf"));
         assert_eq!(refused(0.5, &[], &[]), "0 sizes at 0 points");
         assert!(refused(0.5, &[DVec2::X], &[-1.0]).contains("point 0 at (1, 0) is -1"));
-        assert!(refused(0.5, &[DVec2::NAN], &[1.0]).contains("finite"));
+        assert!(refused(0.5, &[DVec2::NAN], &[1.0]).contains("point 0 is at (NaN, NaN)"));
+        // Found by fuzzing: its box has no finite centre.
+        let far = DVec2::new(0.0, 1e308);
+        assert!(refused(0.5, &[DVec2::ZERO, far], &[1.0; 2]).contains("point 1 is at (0.0, 1e308): coordinates"));
         // Many in one place.
         let envelope = of_samples(0.5, &[DVec2::X; 9], &[2.0; 9]).unwrap();
         assert_eq!(envelope.at(DVec2::ZERO), 2.5);
