@@ -42,6 +42,10 @@ pub const ACUTE_MARGIN: f64 = 1e-9;
 /// computed to a few ulp; a feature more, that cannot win, costs nothing but time.
 pub const SHORTLIST: f64 = 1e-12;
 
+/// Short lists of the spacing: a point counts as in a cell that it is beside by so many ulp of the largest coordinate. A cell's side
+/// is a middle of two others, 40 times over, each time rounded by half an ulp; a point's place in the root by two ulp.
+pub const CELL_ULPS: f64 = 64.0;
+
 /// Matching a mesh to a domain: coordinates that differ by at most this many ulp of the largest coordinate are the same
 /// vertex. Files keep doubles whole; other programs may shift a domain and back. Boundary edges may lie beside their
 /// segments by as much, and so the area may differ by that times the length of the boundary.

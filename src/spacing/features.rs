@@ -1,6 +1,6 @@
 //! The features of a PSLG, vertices and segments, and the smallest disk that meets two that are not incident.
 
-use super::items::{Items, View};
+use super::items::Items;
 use crate::geometry::DVec2;
 
 /// Distances kept on the stack; longer lists occur only while the lists are built, and at vertices of huge degree.
@@ -129,8 +129,9 @@ impl Items for Features {
         (squared.sqrt(), deciding)
     }
 
-    fn view(&self, feature: u32, x: DVec2) -> View {
-        View::new(self.0[feature as usize].offset(x), 0.0, 1.0)
+    #[inline]
+    fn offset(&self, feature: u32, x: DVec2) -> (DVec2, f64) {
+        (self.0[feature as usize].offset(x), 0.0)
     }
 
     fn slope(&self) -> f64 {
@@ -141,51 +142,29 @@ impl Items for Features {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
 
     fn vertex(x: f64, y: f64, index: u32) -> Feature {
         Feature::new([DVec2::new(x, y); 2], [index; 2])
     }
 
     #[test]
-    fn the_margin_is_the_turn_of_both_views_and_at_most_two_radii() {
-        let features = Features::new(vec![vertex(-5.0, 0.0, 0), vertex(0.0, -10.0, 1), vertex(-0.5, 0.0, 2)]);
-        let views = [0, 1, 2].map(|k| features.view(k, DVec2::ZERO));
-        assert_eq!((views[0].distance, views[0].away), (5.0, DVec2::X));
-        assert_eq!((views[1].distance, views[1].away), (10.0, DVec2::Y));
-        // r √2, and ½ r² / (d − r) of each.
-        let expected = 0.5 * 2f64.sqrt() + 0.125 / 4.5 + 0.125 / 9.5;
-        assert!((views[0].margin(&views[1], 0.5) - expected).abs() < 1e-15);
-        // Within the radius the view may turn any way.
+    fn an_offset_leads_from_the_nearest_point() {
+        let features = Features::new(vec![
+            Feature::new([DVec2::ZERO, DVec2::new(4.0, 0.0)], [0, 1]),
+            vertex(1.0, 1.0, 2),
+        ]);
         assert_eq!(
-            (views[0].margin(&views[2], 0.5), views[2].margin(&views[0], 0.625)),
-            (1.0, 1.25)
+            (features.len(), features.ends(0)),
+            (2, [DVec2::ZERO, DVec2::new(4.0, 0.0)])
         );
-        assert_eq!(features.view(2, DVec2::new(-0.5, 0.0)).away, DVec2::ZERO);
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(128))]
-
-        #[test]
-        fn a_distance_gains_no_more_on_another_than_the_margin(
-            ends in prop::collection::vec((-1.0f64..1.0, -1.0f64..1.0), 4),
-            centre in (-1.0f64..1.0, -1.0f64..1.0),
-            radius in 0.01f64..0.5,
-        ) {
-            let ends: Vec<DVec2> = ends.into_iter().map(DVec2::from).collect();
-            let (one, other) = (Feature::new([ends[0], ends[1]], [0, 1]), Feature::new([ends[2], ends[3]], [2, 3]));
-            let features = Features::new(vec![one, other]);
-            prop_assert_eq!((features.len(), features.ends(0)[0]), (2, ends[0]));
-            prop_assert!(features.ends(1)[1].distance(ends[3]) < 1e-15);
-            let lead = |x: DVec2| features.view(1, x).distance - features.view(0, x).distance;
-            let centre = DVec2::from(centre);
-            let margin = features.view(0, centre).margin(&features.view(1, centre), radius);
-            for k in 0..32 {
-                let x = centre + radius * DVec2::from_angle(0.2 * f64::from(k));
-                prop_assert!((lead(x) - lead(centre)).abs() <= margin + 1e-12, "{x}");
-            }
+        for (x, expected) in [
+            ((3.0, 2.0), (0.0, 2.0)),
+            ((-3.0, 1.0), (-3.0, 1.0)),
+            ((7.0, 0.0), (3.0, 0.0)),
+        ] {
+            assert_eq!(Items::offset(&features, 0, x.into()), (expected.into(), 0.0));
         }
+        assert_eq!(Items::offset(&features, 1, DVec2::ZERO), (DVec2::new(-1.0, -1.0), 0.0));
     }
 
     /// Longer lists than the buffer holds give what shorter ones do.

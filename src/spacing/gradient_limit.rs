@@ -72,7 +72,7 @@ pub fn limit(
     )?))
 }
 
-/// The same, evaluated about three times as fast where it is limited: the background of §2.3, a quadtree that stores in each leaf
+/// The same, evaluated four to six times as fast where it is limited: the background of §2.3, a quadtree that stores in each leaf
 /// which terms of F matter there. It is within a share `error` of the largest α-Lipschitz function, never above it, and
 /// α-Lipschitz; where nothing is to be limited, `function` has its own fast evaluation and stays.
 ///

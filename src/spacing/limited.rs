@@ -2,23 +2,13 @@
 //! terms that matter in each part of the plane, by a walk down to one of these.
 
 use super::Spacing;
-use super::cover::{Cell, DEPTH};
-use super::items::{Items, View};
-use super::shortlist::Shortlists;
+use super::cover::DEPTH;
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
+use listed::Listed;
 use std::ops::Range;
 
-/// Branches more than so large, as a share of a cell's side, do not stand in its list: their parts do.
-const COARSE: f64 = 0.02;
-
-/// A list so short is left alone, and one longer once its cell's radius is this share of F or, the longer the list, less: with
-/// finer cells lists would take longer to make than queries gain.
-const FINEST: f64 = 0.4;
-const SHORT: usize = 48;
-
-/// Branch and bound over all terms is faster than a list longer than this.
-const LONGEST: usize = 192;
+mod listed;
 
 /// Most branches waiting in a query: three a level, and the four that are being entered.
 const STACK: usize = 3 * DEPTH + 8;
@@ -57,6 +47,16 @@ impl Branch {
         self.lowest + alpha * outside.length()
     }
 
+    #[inline]
+    fn is_term(&self) -> bool {
+        self.parts == 0
+    }
+
+    /// Where its parts stand.
+    fn range(&self) -> Range<u32> {
+        self.first..self.first + self.parts
+    }
+
     /// From the point of the cell nearest to `x` to `x`.
     fn offset(&self, x: DVec2) -> DVec2 {
         let offset = x - self.centre;
@@ -69,8 +69,7 @@ impl Branch {
 pub struct Limited {
     alpha: f64,
     branches: Vec<Branch>,
-    /// Of the terms, over the square around the domain.
-    lists: Option<Shortlists>,
+    listed: Option<Listed>,
 }
 
 impl Limited {
@@ -79,24 +78,35 @@ impl Limited {
         Self {
             alpha,
             branches,
-            lists: None,
+            listed: None,
         }
     }
 
     /// The same function, with lists of what matters of it wherever `domain` is: they take some time to make, and queries on
-    /// coasts are three times as fast for α up to 1/2, and less beyond.
+    /// coasts are four to six times as fast for α up to 1/2, and less beyond.
     pub fn listed(mut self, domain: &Domain) -> Self {
-        let limited = &self;
-        let root = Cell::root(domain).rect;
-        self.lists = Some(Shortlists::new(&Terms { limited, domain }, &[0], root));
+        self.listed = Some(Listed::new(&self, domain));
         self
     }
 
     /// The lowest of `best` and the terms below a branch, at `x`, each with its term.
     #[inline]
-    fn lowest(&self, from: u32, x: DVec2, mut best: (f64, u32)) -> (f64, u32) {
+    fn lowest(&self, from: u32, x: DVec2, best: (f64, u32)) -> (f64, u32) {
+        let branch = &self.branches[from as usize];
+        let bound = branch.at(x, self.alpha);
+        if bound >= best.0 {
+            best
+        } else if branch.is_term() {
+            (bound, from)
+        } else {
+            self.lowest_below((bound, from), x, best)
+        }
+    }
+
+    /// The same, for a branch that is no term, with its bound there.
+    fn lowest_below(&self, from: (f64, u32), x: DVec2, mut best: (f64, u32)) -> (f64, u32) {
         let mut stack = [(0.0, 0u32); STACK];
-        stack[0] = (self.branches[from as usize].at(x, self.alpha), from);
+        stack[0] = from;
         let mut height = 1;
         while height > 0 {
             height -= 1;
@@ -105,12 +115,12 @@ impl Limited {
                 continue;
             }
             let branch = &self.branches[index as usize];
-            if branch.parts == 0 {
+            if branch.is_term() {
                 best = (bound, index);
                 continue;
             }
             let mut entered = height;
-            for part in branch.first..branch.first + branch.parts {
+            for part in branch.range() {
                 let bound = self.branches[part as usize].at(x, self.alpha);
                 if bound < best.0 {
                     // Kept in descending order, so that the most promising part is entered first.
@@ -128,82 +138,17 @@ impl Limited {
         best
     }
 
-    /// The same below each branch of a list.
-    #[inline]
-    fn lowest_of(&self, list: &[u32], x: DVec2) -> (f64, u32) {
-        let lower = |best: (f64, u32), &from: &u32| {
-            let branch = &self.branches[from as usize];
-            let bound = branch.at(x, self.alpha);
-            match bound < best.0 {
-                false => best,
-                true if branch.parts == 0 => (bound, from),
-                true => self.lowest(from, x, best),
-            }
-        };
-        list.iter().fold((f64::INFINITY, 0), lower)
-    }
-
-    /// Number of terms, and of cells above them; 40 bytes each.
+    /// Number of terms, and of cells above them; 48 bytes each.
     pub fn size(&self) -> (usize, usize) {
-        let terms = self.branches.iter().filter(|branch| branch.parts == 0).count();
+        let terms = self.branches.iter().filter(|branch| branch.is_term()).count();
         (terms, self.branches.len() - terms)
-    }
-}
-
-/// The terms of F, as they matter in a domain.
-struct Terms<'a> {
-    limited: &'a Limited,
-    domain: &'a Domain,
-}
-
-impl Items for Terms<'_> {
-    fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]) {
-        let (value, term) = self.limited.lowest_of(list, x);
-        (value, [term; 2])
-    }
-
-    fn view(&self, term: u32, x: DVec2) -> View {
-        let term = &self.limited.branches[term as usize];
-        View::new(term.offset(x), term.lowest, self.limited.alpha)
-    }
-
-    fn slope(&self) -> f64 {
-        self.limited.alpha
-    }
-
-    fn parts(&self, item: u32, cell: &Rect) -> Option<Range<u32>> {
-        let branch = &self.limited.branches[item as usize];
-        let is_large = branch.parts > 0 && branch.half.max_element() > COARSE * cell.size().max_element();
-        is_large.then(|| branch.first..branch.first + branch.parts)
-    }
-
-    fn is_asked_in(&self, cell: &Rect) -> bool {
-        let centre = cell.centre();
-        let is_near = |(_, distance): (usize, f64)| distance <= 0.5 * cell.diagonal();
-        self.domain.index().nearest(centre).is_none_or(is_near) || self.domain.contains(centre)
-    }
-
-    fn is_fine(&self, share: f64, count: usize) -> bool {
-        share * count.min(LONGEST) as f64 <= FINEST * SHORT as f64
-    }
-
-    fn longest(&self) -> usize {
-        LONGEST
-    }
-
-    fn short(&self) -> usize {
-        SHORT
     }
 }
 
 impl Spacing for Limited {
     fn at(&self, x: DVec2) -> f64 {
-        // There is no list outside the domain, nor where it would be long.
-        let list = self.lists.as_ref().and_then(|lists| lists.at(x));
-        match list.filter(|list| !list.is_empty()) {
-            Some(list) => self.lowest_of(list, x).0,
-            None => self.lowest(0, x, (f64::INFINITY, 0)).0,
-        }
+        let listed = self.listed.as_ref().and_then(|listed| listed.at(x, self));
+        listed.unwrap_or_else(|| self.lowest(0, x, (f64::INFINITY, 0)).0)
     }
 
     fn lipschitz(&self) -> f64 {
