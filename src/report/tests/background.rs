@@ -22,3 +22,18 @@ fn cells_are_paired_that_differ_in_the_background_alone() {
     );
     assert!(background_findings(&rows[1..]).is_empty());
 }
+
+#[test]
+fn the_largest_error_is_also_set_beside_the_smallest() {
+    let rows = vec![bitten(Some(0.05), 1030), bitten(None, 1100), bitten(Some(0.01), 1000)];
+    let findings = background_findings(&rows);
+    assert_eq!(findings.len(), 2);
+    assert!(
+        findings[0].contains("beside the spacing itself**, on 1 pairs: 0.936 times"),
+        "{findings:?}"
+    );
+    assert!(
+        findings[1].contains("of error 0.0500 beside one of error 0.0100**, on 1 pairs: 1.03 times"),
+        "{findings:?}"
+    );
+}
