@@ -3,16 +3,16 @@
 use super::asked::Asked;
 use super::exit::{Failure, Outcome};
 use super::output::{self, Target, say};
-use super::values::positive;
+use super::stages;
+use super::values::{Limits, positive};
 use crate::experiment::adapt::{Adapt, Round};
-use crate::experiment::machine;
-use crate::experiment::measure::{self, Run};
+use crate::experiment::measure::Run;
 use crate::experiment::prepare::{Prepared, Store};
 use crate::experiment::record::Cell;
 use crate::experiment::runner;
 use crate::fem::{self, PROBLEMS, Problem};
 use crate::mesh::files;
-use crate::meshers::{MeshError, Request};
+use crate::meshers::Request;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 
@@ -44,23 +44,23 @@ pub struct Arguments {
     /// Where the report of the last mesh goes
     #[arg(long, value_name = "FILE.json")]
     report: Option<PathBuf>,
+    #[command(flatten)]
+    limits: Limits,
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
     let targets = Target::parse_all(&arguments.out)?;
     let cell = arguments.cell()?;
     let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
-    let store = Store::new(None, false);
-    let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
     let request = Request {
         seed: cell.seed,
+        budget: arguments.limits.budget(),
         ..Request::new(cell.c_b)
     };
-    let run = measure::run(&prepared, &*mesher, &request).map_err(|error| match error {
-        MeshError::Declined(_) => Failure::Declined(error.to_string()),
-        _ => Failure::input(error),
-    })?;
-    let report = measure::judge(&prepared, &cell, entry, &run, &machine::provenance());
+    let store = Store::new(None, false).up_to(request.budget.max_vertices);
+    let (_, prepared) = stages::prepare(store, &cell, &request.budget)?;
+    let (prepared, run) = stages::mesh(prepared, mesher, request)?;
+    let (prepared, run, report) = stages::judge(prepared, run, &cell, entry, &request.budget)?;
     say(table(&report.rounds));
     if let Some(solution) = &report.poisson {
         say(format_args!(

@@ -20,6 +20,7 @@ mod output;
 mod progress;
 mod report;
 mod shards;
+mod stages;
 mod sweep;
 mod values;
 mod watch;

@@ -1,8 +1,32 @@
 //! How values are written on the command line.
 
 use crate::experiment::plan::fraction;
-use crate::meshers::parameter_value;
+use crate::meshers::{Budget, parameter_value};
 use serde_json::Value;
+
+/// Budgets, as `mesh` and `adapt` take them.
+#[derive(clap::Args)]
+pub struct Limits {
+    /// Most vertices a mesh may have
+    #[arg(long, value_name = "N")]
+    max_vertices: Option<usize>,
+    /// Most seconds the mesher may take, and as many for domain, spacing and certificate each
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    max_seconds: Option<f64>,
+    /// Most memory of the process, such as 4G
+    #[arg(long, value_name = "BYTES", value_parser = bytes)]
+    max_memory: Option<u64>,
+}
+
+impl Limits {
+    pub fn budget(&self) -> Budget {
+        Budget {
+            max_vertices: self.max_vertices,
+            max_seconds: self.max_seconds,
+            max_memory: self.max_memory,
+        }
+    }
+}
 
 /// A positive number, also as a fraction: `0.25`, `1/3`.
 pub fn positive(text: &str) -> Result<f64, String> {

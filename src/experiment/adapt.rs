@@ -30,7 +30,7 @@ use crate::fem::{self, Problem, Solution};
 use crate::geometry::DVec2;
 use crate::geometry::near::{Disc, DiscGrid};
 use crate::mesh::Mesh;
-use crate::meshers::{Budget, Request, Trace};
+use crate::meshers::{Budget, MeshError, Request, Trace};
 use crate::spacing::{Lfs, Min, NearestNeighbour, Nodal, Spacing, Tolerance, limit, recovered_eigenvalues};
 use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
@@ -118,6 +118,31 @@ pub struct Round {
     pub kept: usize,
 }
 
+/// How far a round may go.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// [`crate::spacing::Options::limit_factor`].
+    pub factor: f64,
+    /// Most vertices of its mesh, [`MOST_VERTICES`] by default.
+    pub vertices: Option<usize>,
+}
+
+/// Why there is no spacing to end with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ended {
+    /// In words.
+    pub reason: String,
+    /// Whether a mesh reached the most vertices.
+    pub is_budget: bool,
+}
+
+impl From<String> for Ended {
+    fn from(reason: String) -> Self {
+        let is_budget = false;
+        Self { reason, is_budget }
+    }
+}
+
 /// The spacing that adaptation ends with, capped by `lfs` if there is one, but not limited, and the rounds to it from `start`.
 ///
 /// # Errors
@@ -127,14 +152,14 @@ pub fn run(
     lfs: Option<Arc<Lfs>>,
     start: Arc<dyn Spacing>,
     cell: &Cell,
-    limit_factor: f64,
-) -> Result<(Arc<dyn Spacing>, Vec<Round>), String> {
-    let adapt = cell.adapt.ok_or("no adaptation is asked for")?;
+    limits: Limits,
+) -> Result<(Arc<dyn Spacing>, Vec<Round>), Ended> {
+    let adapt = cell.adapt.ok_or_else(|| "no adaptation is asked for".to_owned())?;
     adapt.check()?;
     let name = cell
         .poisson
         .as_deref()
-        .ok_or("adaptation needs a problem with a known u")?;
+        .ok_or_else(|| "adaptation needs a problem with a known u".to_owned())?;
     let problem = Problem::named(name, domain.bounds()).map_err(|error| error.to_string())?;
     let loops = Loop {
         domain,
@@ -142,7 +167,7 @@ pub fn run(
         problem,
         cell,
         adapt,
-        limit_factor,
+        limits,
     };
     let mut spacing = start;
     let mut limited = loops.limited(spacing.clone())?;
@@ -150,7 +175,10 @@ pub fn run(
     let mut before = FxHashSet::default();
     for number in 1..=adapt.rounds {
         let told = |reason: String| format!("round {number} of adaptation: {reason}");
-        let mesh = loops.mesh(&*limited).map_err(told)?;
+        let mesh = loops.mesh(&*limited).map_err(|ended| Ended {
+            reason: told(ended.reason),
+            ..ended
+        })?;
         let (solution, values) = loops.values(&mesh).map_err(told)?;
         spacing = loops.next(&mesh, &values).map_err(told)?;
         let next = loops.limited(spacing.clone()).map_err(told)?;
@@ -175,28 +203,31 @@ struct Loop<'a> {
     problem: Problem,
     cell: &'a Cell,
     adapt: Adapt,
-    limit_factor: f64,
+    limits: Limits,
 }
 
 impl Loop<'_> {
     fn limited(&self, spacing: Arc<dyn Spacing>) -> Result<Arc<dyn Spacing>, String> {
         let alpha = self.cell.t / self.cell.c_b;
-        limit(spacing, self.domain, alpha, self.limit_factor).map_err(|error| error.to_string())
+        limit(spacing, self.domain, alpha, self.limits.factor).map_err(|error| error.to_string())
     }
 
-    fn mesh(&self, spacing: &dyn Spacing) -> Result<Mesh, String> {
+    fn mesh(&self, spacing: &dyn Spacing) -> Result<Mesh, Ended> {
         let (_, mesher) = mesher(self.cell)?;
         let request = Request {
             c_b: self.cell.c_b,
             seed: self.cell.seed,
             threads: self.cell.threads,
             budget: Budget {
-                max_vertices: Some(MOST_VERTICES),
+                max_vertices: Some(self.limits.vertices.unwrap_or(MOST_VERTICES)),
                 ..Budget::default()
             },
         };
         let mesh = mesher.mesh(self.domain, spacing, &request, &mut Trace::default());
-        mesh.map_err(|error| error.to_string())
+        mesh.map_err(|error| Ended {
+            reason: error.to_string(),
+            is_budget: matches!(error, MeshError::Budget { .. }),
+        })
     }
 
     /// The solution on the mesh, and what stands for u at its vertices.

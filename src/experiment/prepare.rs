@@ -34,6 +34,8 @@ pub enum PrepareError {
         domain: String,
         /// The round, and what ended it.
         reason: String,
+        /// Whether that is the most vertices it may have.
+        is_budget: bool,
     },
 }
 
@@ -123,6 +125,7 @@ impl<K: Ord, T: Clone> Shelf<K, T> {
 /// Domains and spacings, kept for all cells of a sweep. Limited spacings are not kept: there are as many as values of α.
 pub struct Store {
     limit_factor: Option<f64>,
+    most_vertices: Option<usize>,
     repair: bool,
     repairs: Mutex<Vec<RepairReport>>,
     domains: Shelf<String, Arc<Domain>>,
@@ -135,12 +138,19 @@ impl Store {
     pub fn new(limit_factor: Option<f64>, repair: bool) -> Self {
         Self {
             limit_factor,
+            most_vertices: None,
             repair,
             repairs: Mutex::new(Vec::new()),
             domains: Shelf::new(),
             sites: Shelf::new(),
             bases: Shelf::new(),
         }
+    }
+
+    /// The same, whose adaptations make no mesh of more vertices.
+    pub fn up_to(mut self, most_vertices: Option<usize>) -> Self {
+        self.most_vertices = most_vertices;
+        self
     }
 
     /// The domain of that gallery name or file.
@@ -303,17 +313,16 @@ impl Store {
                 return Err(told(&site.domain)(SpacingError::Geodesic { message }));
             }
             if cell.adapt.is_some() {
-                let factor = options.limit_factor;
-                let adapted = adapt::run(
-                    &site.domain,
-                    built.lfs_cap.then(|| site.lfs.clone()),
-                    built.function,
-                    cell,
-                    factor,
-                );
-                (built.function, rounds) = adapted.map_err(|reason| PrepareError::Adaptation {
+                let limits = adapt::Limits {
+                    factor: options.limit_factor,
+                    vertices: self.most_vertices,
+                };
+                let lfs = built.lfs_cap.then(|| site.lfs.clone());
+                let adapted = adapt::run(&site.domain, lfs, built.function, cell, limits);
+                (built.function, rounds) = adapted.map_err(|ended| PrepareError::Adaptation {
                     domain: site.domain.name().to_owned(),
-                    reason,
+                    reason: ended.reason,
+                    is_budget: ended.is_budget,
                 })?;
             }
             let integral = if built.spec == "lfs" && rounds.is_empty() {

@@ -87,8 +87,8 @@ impl Rival {
         let lead = (to.value - self.view.value) / slope;
         let rest = lead - self.turn - to.turn(self.radius);
         // Squares spare a root.
-        let angle = self.view.away.distance_squared(to.away);
-        lead <= 2.0 * self.radius && (rest <= 0.0 || rest * rest <= self.radius * self.radius * angle)
+        let apart = self.view.away.distance_squared(to.away);
+        lead <= 2.0 * self.radius && (rest <= 0.0 || rest * rest <= self.radius * self.radius * apart)
     }
 }
 
