@@ -66,8 +66,14 @@ fn a_budget_ends_an_adaptation_with_the_round_it_came_to() {
     let adapt = ["adapt", "l-shape", "--problem", "corner", "--eps", "1e-5"];
     let asked = [&adapt[..], &["--max-vertices", "300", "--out", "m.vtu"]].concat();
     let (_, error) = run(folder.path(), &asked, 4);
-    assert!(error.contains("on l-shape: round ") && error.contains("max_vertices = 300"), "{error}");
+    assert!(
+        error.contains("on l-shape: round ") && error.contains("max_vertices = 300"),
+        "{error}"
+    );
     let (_, error) = run(folder.path(), &[&adapt[..], &["--max-seconds", "0.001"]].concat(), 4);
-    assert!(error.contains("max_seconds = 0.001") && error.contains("raise the budget"), "{error}");
+    assert!(
+        error.contains("max_seconds = 0.001") && error.contains("raise the budget"),
+        "{error}"
+    );
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
