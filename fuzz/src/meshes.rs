@@ -67,7 +67,8 @@ fn check(ending: &str, data: &[u8]) -> Option<(Mesh, Mesh)> {
 fn check_values(name: &str) {
     let path = scratch::path(name);
     if let Ok((mesh, values)) = read_with_values(&path) {
-        let (points, same) = read_points_with_values(&path).expect("values that are read with triangles are read without");
+        let (points, same) =
+            read_points_with_values(&path).expect("values that are read with triangles are read without");
         assert_eq!((points, same), (mesh.points, values));
     }
     let Ok((points, values)) = read_points_with_values(&path) else {

@@ -123,7 +123,7 @@ pub struct Round {
 pub struct Limits {
     /// [`crate::spacing::Options::limit_factor`].
     pub factor: f64,
-    /// Most vertices of its mesh, [`MOST_VERTICES`] by default.
+    /// Most vertices of its mesh, two millions by default.
     pub vertices: Option<usize>,
 }
 
