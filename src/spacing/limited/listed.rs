@@ -158,3 +158,47 @@ impl Items for Terms<'_> {
         SHORT
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::testing::pseudo_random_points;
+    use super::*;
+    use crate::domain::gallery;
+
+    /// A term in each of 4⁶ cells, whose v rises by less than α from a corner on: all of them matter near by.
+    fn rising(root: Rect) -> Limited {
+        let mut cells = vec![(root, 0..0)];
+        for index in 0..(4usize.pow(6) - 1) / 3 {
+            cells[index].1 = cells.len()..cells.len() + 4;
+            cells.extend(cells[index].0.quarters().map(|quarter| (quarter, 0..0)));
+        }
+        let branch =
+            |(cell, parts): (Rect, Range<usize>)| Branch::new(cell, 0.1 + 0.3 * cell.distance(root.min), parts);
+        Limited::new(0.5, cells.into_iter().map(branch).collect())
+    }
+
+    #[test]
+    fn lists_are_where_the_domain_is() {
+        let domain = gallery::domain("l-shape").unwrap().unwrap();
+        let root = Cell::root(&domain).rect;
+        let limited = rising(root);
+        let listed = Listed::new(&limited, &domain);
+        let (mut inside, mut outside) = (0, 0);
+        for x in pseudo_random_points(400)
+            .into_iter()
+            .map(|x| root.min + x * root.size())
+        {
+            let expected = limited.lowest(0, x, (f64::INFINITY, 0)).0;
+            let found = listed.at(x, &limited);
+            let (_, distance) = domain.index().nearest(x).expect("a boundary");
+            if domain.contains(x) {
+                assert_eq!(found, Some(expected), "{x}");
+                inside += 1;
+            } else if distance > 0.25 * root.size().x {
+                assert_eq!(found, None, "{x}");
+                outside += 1;
+            }
+        }
+        assert!(inside > 100 && outside > 10, "{inside} {outside}");
+    }
+}
