@@ -214,6 +214,22 @@ mod tests {
         (Limited::new(alpha, branches.collect()), terms)
     }
 
+    #[test]
+    fn an_offset_leads_from_the_nearest_point_of_the_cell() {
+        let cell = Rect {
+            min: DVec2::ZERO,
+            max: DVec2::new(4.0, 4.0),
+        };
+        let term = Branch::new(cell, 1.0, 0..0);
+        for (x, expected) in [
+            ((1.0, 3.0), (0.0, 0.0)),
+            ((6.0, 3.0), (2.0, 0.0)),
+            ((-1.0, 7.0), (-1.0, 3.0)),
+        ] {
+            assert_eq!(term.offset(x.into()), expected.into());
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(96))]
 

@@ -165,38 +165,41 @@ mod tests {
     use super::*;
     use crate::domain::gallery;
 
-    /// A term in each of 4⁶ cells, whose v rises by less than α from a corner on: all of them matter near by.
-    fn rising(root: Rect) -> Limited {
+    /// A term in each of 4⁶ cells, whose v rises by less than α from one corner on, but for that corner's own, which is lower.
+    fn rising(root: Rect, alpha: f64) -> Limited {
         let mut cells = vec![(root, 0..0)];
         for index in 0..(4usize.pow(6) - 1) / 3 {
             cells[index].1 = cells.len()..cells.len() + 4;
             cells.extend(cells[index].0.quarters().map(|quarter| (quarter, 0..0)));
         }
-        let branch =
-            |(cell, parts): (Rect, Range<usize>)| Branch::new(cell, 0.1 + 0.3 * cell.distance(root.min), parts);
-        Limited::new(0.5, cells.into_iter().map(branch).collect())
+        let branch = |(cell, parts): (Rect, Range<usize>)| {
+            let rise = 0.3 * cell.distance(root.min);
+            Branch::new(cell, if rise == 0.0 { 0.01 } else { 0.1 + rise }, parts)
+        };
+        Limited::new(alpha, cells.into_iter().map(branch).collect())
     }
 
     #[test]
     fn lists_are_where_the_domain_is() {
-        let domain = gallery::domain("l-shape").unwrap().unwrap();
+        let domain = gallery::domain("star").unwrap().unwrap();
         let root = Cell::root(&domain).rect;
-        let limited = rising(root);
-        let listed = Listed::new(&limited, &domain);
         let (mut inside, mut outside) = (0, 0);
-        for x in pseudo_random_points(400)
-            .into_iter()
-            .map(|x| root.min + x * root.size())
-        {
-            let expected = limited.lowest(0, x, (f64::INFINITY, 0)).0;
-            let found = listed.at(x, &limited);
-            let (_, distance) = domain.index().nearest(x).expect("a boundary");
-            if domain.contains(x) {
-                assert_eq!(found, Some(expected), "{x}");
-                inside += 1;
-            } else if distance > 0.25 * root.size().x {
-                assert_eq!(found, None, "{x}");
-                outside += 1;
+        for alpha in [0.5, 5.0] {
+            let limited = rising(root, alpha);
+            let listed = Listed::new(&limited, &domain);
+            // As many places near the lower corner, where the lowest term decides, as everywhere.
+            let shares = pseudo_random_points(400).into_iter();
+            for x in shares.flat_map(|share| [1.0, 0.25].map(|part| root.min + part * share * root.size())) {
+                let expected = limited.lowest(0, x, (f64::INFINITY, 0)).0;
+                let found = listed.at(x, &limited);
+                let (_, distance) = domain.index().nearest(x).expect("a boundary");
+                if domain.contains(x) {
+                    assert_eq!(found, Some(expected), "{x}");
+                    inside += 1;
+                } else if distance > 0.1 * root.size().x {
+                    assert_eq!(found, None, "{x}");
+                    outside += 1;
+                }
             }
         }
         assert!(inside > 100 && outside > 10, "{inside} {outside}");

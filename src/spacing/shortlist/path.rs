@@ -2,7 +2,7 @@
 
 use crate::geometry::DVec2;
 
-/// Bits of a place in the root along each axis: a level takes one of each, or two of one.
+/// Bits of a place in the root along each axis, of the 64 there is room for: a level takes one of each, or two of one.
 const BITS: i32 = 63;
 
 /// Most levels of strips: they suffice for a root a million million times as long as wide, and leave bits for all levels.
@@ -51,7 +51,7 @@ impl Scale {
     #[inline]
     pub fn path(&self, from_corner: DVec2) -> Path {
         // The root's upper sides belong to it.
-        let bits = |share: f64| (share as u64).min((1 << BITS) - 1) << (u64::BITS as i32 - BITS);
+        let bits = |share: f64| (share as u64).min((1 << BITS) - 1) << 1;
         Path {
             bits: (from_corner * self.per_length).to_array().map(bits),
             strips: self.strips,
@@ -66,9 +66,9 @@ impl Path {
     pub fn step(&mut self) -> usize {
         if self.strips > 0 {
             self.strips -= 1;
-            return (self.bit(self.across) << 1) | self.bit(self.across);
+            return 2 * self.bit(self.across) + self.bit(self.across);
         }
-        (self.bit(0) << 1) | self.bit(1)
+        2 * self.bit(0) + self.bit(1)
     }
 
     #[inline]

@@ -112,10 +112,32 @@ proptest! {
 /// The bound is not idle: it tells apart what a bound by both slopes alone would not.
 #[test]
 fn of_two_items_on_one_side_the_farther_loses() {
-    let features = vertices([DVec2::new(-5.0, 0.0), DVec2::new(-5.5, 0.0), DVec2::new(5.5, 0.0)]);
-    let view = |k: u32| features.view(k, DVec2::ZERO);
-    let rival = Rival::new(view(0), 0.5);
-    assert!(!rival.may_lose(&view(1), 1.0) && rival.may_lose(&view(2), 1.0));
+    for slope in [1.0, 0.5] {
+        let view = |x: f64| View::new(DVec2::new(x, 0.0), x.abs(), slope * x.abs());
+        let rival = Rival::new(view(-5.0), 0.5);
+        let may_lose = |to: f64| rival.may_lose(&view(to), slope);
+        // Nearer than by the turns of both, not so, at the end of what slopes allow, and beyond that.
+        assert_eq!([-5.05, -5.1, -6.0, -7.0].map(may_lose), [true, false, false, false]);
+        assert_eq!([5.9, 6.1].map(may_lose), [true, false]);
+    }
+}
+
+/// Nobody asks so often in a cell small against the function; lists that stay long are left so.
+#[test]
+fn no_cell_is_much_smaller_than_the_function_in_it() {
+    // In the middle of a circle of points all of them matter.
+    let circle = (0..64).map(|k| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 64.0));
+    let features = vertices(circle);
+    let all: Vec<u32> = (0..64).collect();
+    let lists = Shortlists::new(&features, &all, rect((-1.0, -1.0), (1.5, 1.25)));
+    let (mut short, mut fine) = (0, 0);
+    for (cell, _, list) in leaves(&lists) {
+        let share = 0.5 * cell.diagonal() / features.decide(&all, cell.centre()).0;
+        // The cell that this one is a part of has twice the radius, and f changes by no more than the distance of centres.
+        assert!(2.0 * share >= (1.0 - share) / 32.0, "{cell:?}");
+        *(if list.len() <= 16 { &mut short } else { &mut fine }) += 1;
+    }
+    assert!(short > 10 && fine > 0, "{short} {fine}");
 }
 
 /// Too near to one another for cells of that depth to tell them apart, and well inside each.
