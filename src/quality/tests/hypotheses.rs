@@ -269,6 +269,14 @@ fn distances_inside_the_domain_need_a_small_t_and_the_rule_of_the_paper() {
     for none in [steep, later, hiding] {
         assert_eq!(missing(none), CLAIMS);
     }
+    // That t itself will do.
+    assert_ne!(
+        missing(Hypotheses {
+            t: GEODESIC_T,
+            ..inside
+        }),
+        CLAIMS
+    );
     assert_eq!(
         missing(Hypotheses {
             corners_hide: true,
@@ -297,12 +305,35 @@ fn a_corner_hides_what_lies_behind_it_where_the_angle_outside_is_below_180_degre
         Domain::new(pslg).expect("a valid domain")
     };
     assert!(!hides(&corner(&[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0)])));
-    let mut pslg = Pslg::new("two corners");
-    pslg.add_ring([(0.0, 0.0), (2.0, -0.8), (2.0, 0.8)].map(DVec2::from), 1);
-    let others = [(1.0, 1.0), (-2.0, 2.0), (-2.0, -2.0), (1.0, -1.0)].map(|(x, y)| pslg.add_vertex(DVec2::new(x, y)));
-    let ring: Vec<usize> = std::iter::once(0).chain(others).collect();
-    let sides = (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]));
-    pslg.segments
-        .extend(sides.map(|(a, b)| InputSegment { a, b, marker: 1 }));
-    assert!(hides(&Domain::new(pslg).expect("a valid domain")));
+    // No corner is cut off at a vertex with 200° or so inside.
+    assert!(!hides(&corner(&[(0.0, 0.0), (-3.0, -1.0), (0.0, 4.0), (3.0, -1.0)])));
+    let two_rings = |first: &[(f64, f64)], others: &[(f64, f64)]| {
+        let mut pslg = Pslg::new("two corners");
+        pslg.add_ring(first.iter().copied().map(DVec2::from), 1);
+        let others: Vec<usize> = others.iter().map(|&x| pslg.add_vertex(x.into())).collect();
+        let ring: Vec<usize> = std::iter::once(0).chain(others).collect();
+        let sides = (0..ring.len()).map(|k| (ring[k], ring[(k + 1) % ring.len()]));
+        pslg.segments
+            .extend(sides.map(|(a, b)| InputSegment { a, b, marker: 1 }));
+        Domain::new(pslg).expect("a valid domain")
+    };
+    // Nor at one where two squares meet.
+    let squares = two_rings(
+        &[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)],
+        &[(-2.0, 0.0), (-2.0, -2.0), (0.0, -2.0)],
+    );
+    assert!(!hides(&squares));
+    // Outside a straight side nothing hides, though an inner segment makes a corner on it.
+    let mut pslg = Pslg::new("on a side");
+    pslg.add_ring(
+        [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (-2.0, 2.0), (-2.0, 0.0)].map(DVec2::from),
+        1,
+    );
+    pslg.segments.push(InputSegment { a: 0, b: 2, marker: 1 });
+    assert!(!hides(&Domain::new(pslg).expect("a valid domain")));
+    let corners = two_rings(
+        &[(0.0, 0.0), (2.0, -0.8), (2.0, 0.8)],
+        &[(1.0, 1.0), (-2.0, 2.0), (-2.0, -2.0), (1.0, -1.0)],
+    );
+    assert!(hides(&corners));
 }
