@@ -33,7 +33,7 @@ pub struct Asked {
     #[arg(long, value_name = "NAME=VALUE", value_parser = parameter)]
     param: Vec<(String, Value)>,
     /// Evaluate the limited spacing on a background quadtree (§2.3), within a share EPS of the largest: evaluations take a
-    /// fifth of the time, once it is made, which takes as long as 10⁵ to 10⁶ of them; in place of --limit-factor
+    /// fifth of the time, once it is made, which takes as long as 10⁵ to 2·10⁶ of them; in place of --limit-factor
     #[arg(long, value_name = "EPS", value_parser = share)]
     background: Option<f64>,
     /// Do not cap the spacing by local feature size; the bounds of the paper no longer apply

@@ -19,14 +19,9 @@ const LEAST_BYTES_PER_TRIANGLE: f64 = 100.0;
 
 /// Domain and spacing, within a budget that each of the two may use up.
 pub fn prepare(store: Store, cell: &Cell, budget: &Budget) -> Result<(Store, Prepared), Failure> {
-    let now = Duration::ZERO;
-    let (name, asked) = (cell.domain.clone(), cell.clone());
-    let reading = || format!("reading and checking {name}; raise the budget");
-    let (store, domain) = watch::within(budget, now, reading, move || {
-        let domain = store.domain(&asked.domain);
-        (store, domain)
-    })?;
-    let (domain, asked) = (domain.map_err(Failure::input)?, cell.clone());
+    let reading = || format!("reading and checking {}; raise the budget", cell.domain);
+    let (store, domain) = stage(store, cell, budget, reading, |store, cell| store.domain(&cell.domain))?;
+    let domain = domain.map_err(Failure::input)?;
     let measuring = || {
         let place = shortest_segment(&domain);
         format!(
@@ -34,11 +29,8 @@ pub fn prepare(store: Store, cell: &Cell, budget: &Budget) -> Result<(Store, Pre
             cell.domain
         )
     };
-    let (store, site) = watch::within(budget, now, measuring, move || {
-        let site = store.site(&asked.domain);
-        (store, site)
-    })?;
-    let (site, asked) = (site.map_err(Failure::input)?, cell.clone());
+    let (store, site) = stage(store, cell, budget, measuring, |store, cell| store.site(&cell.domain))?;
+    let site = site.map_err(Failure::input)?;
     let making = || {
         let expected = expected(site.integral_lfs.value, cell.c_b);
         let (doing, remedy) = match &cell.adapt {
@@ -52,15 +44,27 @@ pub fn prepare(store: Store, cell: &Cell, budget: &Budget) -> Result<(Store, Pre
         let narrowest = site.lfs.narrowest();
         format!("{doing}; {narrowest}; with lfs as spacing {expected}; ask for {remedy} or raise the budget")
     };
-    let (store, prepared) = watch::within(budget, now, making, move || {
-        let prepared = store.prepare_for_t(&asked);
-        (store, prepared)
-    })?;
-    let prepared = prepared.map_err(|error| match error {
-        PrepareError::Adaptation { is_budget: true, .. } => Failure::Declined(error.to_string()),
+    let (store, prepared) = stage(store, cell, budget, making, Store::prepare_for_t)?;
+    let prepared = prepared.map_err(|error| match &error {
+        PrepareError::Adaptation { ended, .. } if ended.is_budget => Failure::Declined(error.to_string()),
         _ => Failure::input(error),
     })?;
     Ok((store, prepared))
+}
+
+/// What `make` takes from the store for a cell, within the budget.
+fn stage<T: Send + 'static>(
+    store: Store,
+    cell: &Cell,
+    budget: &Budget,
+    told: impl FnOnce() -> String,
+    make: fn(&Store, &Cell) -> T,
+) -> Result<(Store, T), Failure> {
+    let cell = cell.clone();
+    watch::within(budget, Duration::ZERO, told, move || {
+        let made = make(&store, &cell);
+        (store, made)
+    })
 }
 
 /// The number of triangles by the integral ∫dA/f², in words.

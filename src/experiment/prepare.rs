@@ -1,6 +1,6 @@
 //! What cells share: domain, spacing, limited spacing, and their integrals, each made once.
 
-use super::adapt::{self, Round};
+use super::adapt::{self, Ended, Round};
 use super::record::Cell;
 use super::work::Outlook;
 use crate::domain::{self, Domain, DomainError, RepairReport};
@@ -28,14 +28,12 @@ pub enum PrepareError {
         cause: SpacingError,
     },
     /// A round of adaptation ended without a spacing.
-    #[error("on {domain}: {reason}")]
+    #[error("on {domain}: {}", ended.reason)]
     Adaptation {
         /// Where.
         domain: String,
-        /// The round, and what ended it.
-        reason: String,
-        /// Whether that is the most vertices it may have.
-        is_budget: bool,
+        /// What ended it.
+        ended: Ended,
     },
 }
 
@@ -321,8 +319,7 @@ impl Store {
                 let adapted = adapt::run(&site.domain, lfs, built.function, cell, limits);
                 (built.function, rounds) = adapted.map_err(|ended| PrepareError::Adaptation {
                     domain: site.domain.name().to_owned(),
-                    reason: ended.reason,
-                    is_budget: ended.is_budget,
+                    ended,
                 })?;
             }
             let integral = if built.spec == "lfs" && rounds.is_empty() {

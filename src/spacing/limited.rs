@@ -43,8 +43,7 @@ impl Branch {
 
     #[inline]
     fn at(&self, x: DVec2, alpha: f64) -> f64 {
-        let outside = ((x - self.centre).abs() - self.half).max(DVec2::ZERO);
-        self.lowest + alpha * outside.length()
+        self.lowest + alpha * beyond(x - self.centre, self.half)
     }
 
     #[inline]
@@ -62,6 +61,12 @@ impl Branch {
         let offset = x - self.centre;
         offset - offset.clamp(-self.half, self.half)
     }
+}
+
+/// The distance to a box with these half sides from the place at `offset` from its centre.
+#[inline]
+fn beyond(offset: DVec2, half: DVec2) -> f64 {
+    (offset.abs() - half).max(DVec2::ZERO).length()
 }
 
 /// The gradient-limited spacing F: α-Lipschitz everywhere, since each term is and a minimum keeps that (Lemma 2.3).

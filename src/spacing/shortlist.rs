@@ -143,6 +143,7 @@ impl<I: Items> Builder<'_, I> {
         let centre = pending.cell.centre();
         let radius = 0.5 * pending.cell.diagonal() + self.beside;
         let (value, deciding) = items.decide(from, centre);
+        let is_one = deciding[0] == deciding[1];
         let [one, other] = deciding.map(|item| Rival::new(items.view(item, centre), radius));
         let reach = one.view.value.max(other.view.value) + items.slope() * 2.0 * radius;
         let matters = |item: u32| {
@@ -151,7 +152,7 @@ impl<I: Items> Builder<'_, I> {
             let value = (1.0 - SHORTLIST) * (lowest + items.slope() * distance);
             value <= reach && {
                 let view = View::new(offset, distance, value);
-                one.may_lose(&view, items.slope()) || other.may_lose(&view, items.slope())
+                one.may_lose(&view, items.slope()) || (!is_one && other.may_lose(&view, items.slope()))
             }
         };
         let list = &mut pending.list;

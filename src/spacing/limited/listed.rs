@@ -6,7 +6,7 @@
 use super::super::cover::Cell;
 use super::super::items::{Asked, Items};
 use super::super::shortlist::Shortlists;
-use super::{Branch, Limited};
+use super::{Branch, Limited, beyond};
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
 use std::hint::select_unpredictable;
@@ -35,8 +35,7 @@ struct Term {
 impl Term {
     #[inline]
     fn at(&self, x: DVec2, alpha: f64) -> f64 {
-        let outside = ((x - self.centre).abs() - self.half).max(DVec2::ZERO);
-        self.lowest + alpha * outside.length()
+        self.lowest + alpha * beyond(x - self.centre, DVec2::splat(self.half))
     }
 }
 
@@ -67,8 +66,8 @@ impl Listed {
             }
             pending.extend(branch.range().rev());
         }
-        let beyond = terms.len() as u32;
-        let lists = lists.renumbered(|index| numbers[index as usize].unwrap_or(beyond + index));
+        let first_branch = terms.len() as u32;
+        let lists = lists.renumbered(|index| numbers[index as usize].unwrap_or(first_branch + index));
         Self { terms, lists }
     }
 
@@ -76,15 +75,15 @@ impl Listed {
     #[inline]
     pub fn at(&self, x: DVec2, limited: &Limited) -> Option<f64> {
         let list = self.lists.at(x).filter(|list| !list.is_empty())?;
-        let beyond = self.terms.len() as u32;
-        let is_branch = |&&number: &&u32| number >= beyond;
+        let first_branch = self.terms.len() as u32;
+        let is_branch = |&&number: &&u32| number >= first_branch;
         let (terms, branches) = list.split_at(list.len() - list.iter().rev().take_while(is_branch).count());
         // Which term is lower cannot be predicted.
         let lower = |best: f64, value: f64| select_unpredictable(value < best, value, best);
         let at = |&term: &u32| self.terms[term as usize].at(x, limited.alpha);
         let lowest = terms.iter().map(at).fold(f64::INFINITY, lower);
-        let lowest_below = |best, &number: &u32| limited.lowest(number - beyond, x, best);
-        Some(branches.iter().fold((lowest, 0), lowest_below).0)
+        let or_of_branch = |best, &number: &u32| limited.lowest(number - first_branch, x, best);
+        Some(branches.iter().fold((lowest, 0), or_of_branch).0)
     }
 }
 
@@ -102,8 +101,8 @@ impl Terms<'_> {
 
 impl Items for Terms<'_> {
     fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]) {
-        let lowest_below = |best, &from: &u32| self.limited.lowest(from, x, best);
-        let (value, term) = list.iter().fold((f64::INFINITY, 0), lowest_below);
+        let or_of = |best, &from: &u32| self.limited.lowest(from, x, best);
+        let (value, term) = list.iter().fold((f64::INFINITY, 0), or_of);
         (value, [term; 2])
     }
 
