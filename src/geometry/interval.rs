@@ -265,8 +265,7 @@ impl Mul for Interval {
             times(self.high, other.low),
             times(self.high, other.high),
         ];
-        let low = products.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = products.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let [low, high] = extremes(products);
         let zero = Self { low: 0.0, high: 0.0 };
         let product = Self::outward(low, high);
         if self == zero || other == zero {
@@ -295,11 +294,14 @@ impl Div for Interval {
         if quotients.iter().any(|q| q.is_nan()) {
             return Self::WHOLE;
         }
-        Self::outward(
-            quotients.iter().copied().fold(f64::INFINITY, f64::min),
-            quotients.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        )
+        let [low, high] = extremes(quotients);
+        Self::outward(low, high)
     }
+}
+
+/// The least and the largest of four numbers.
+fn extremes([a, b, c, d]: [f64; 4]) -> [f64; 2] {
+    [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))]
 }
 
 #[cfg(test)]
