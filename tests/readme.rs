@@ -1,6 +1,7 @@
 //! Every command of README.md is run as written, sweeps as dry runs.
 
 use assert_cmd::Command;
+use std::ffi::OsStr;
 use std::path::Path;
 
 /// The `cargo run` commands of the README's shell blocks, as arguments.
@@ -37,19 +38,27 @@ fn commands_run_as_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let commands = commands(&readme);
     assert!(commands.len() >= 5, "{commands:?}");
-    for arguments in commands {
+    // Sweeps are planned and figures drawn from the rows of this checkout; the others follow one another in a folder.
+    let (here, there): (Vec<_>, Vec<_>) = commands
+        .into_iter()
+        .partition(|arguments| ["sweep", "compare", "figures"].contains(&arguments[0].as_str()));
+    let run = |arguments: &[String], place: &Path, more: &[&OsStr]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_biting"));
-        command.args(&arguments);
-        if ["sweep", "compare"].contains(&arguments[0].as_str()) {
-            command.arg("--dry-run").current_dir(root);
-        } else if arguments[0] == "figures" {
-            // They are drawn from the rows of this checkout, and its pictures are to stay.
-            command.arg("--out").arg(folder.path()).current_dir(root);
-        } else {
-            command.current_dir(folder.path());
-        }
+        command.current_dir(place).args(arguments).args(more);
         command.assert().success();
-    }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            for arguments in here {
+                match arguments[0].as_str() {
+                    // The pictures of this checkout are to stay.
+                    "figures" => run(&arguments, root, &["--out".as_ref(), folder.path().as_ref()]),
+                    _ => run(&arguments, root, &["--dry-run".as_ref()]),
+                }
+            }
+        });
+        there.iter().for_each(|arguments| run(arguments, folder.path(), &[]));
+    });
 }
 
 #[test]
