@@ -27,6 +27,11 @@ fn is_lost(met: &Met) -> bool {
     2 * met.worse > met.meshes[0] && met.met.mean_deg < met.elsewhere.mean_deg
 }
 
+/// Both, a line each.
+pub(super) fn claim_findings(rows: &[Row]) -> impl Iterator<Item = String> {
+    [seam_finding(rows), sampling_finding(rows)].into_iter().flatten()
+}
+
 /// Whether advancing front loses quality where fronts meet, in a line for each of its methods that are at their defaults.
 pub(super) fn seam_finding(rows: &[Row]) -> Option<String> {
     let found = met(rows);

@@ -39,7 +39,7 @@ pub(super) fn plain(text: &str) -> String {
 pub(crate) fn table(head: &[&str], lines: &[Vec<String>]) -> String {
     let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     let numeric =
-        |text: &String| text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit() || "–-(".contains(c));
+        |text: &String| text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit() || "–-(*".contains(c));
     let rule = (0..head.len()).map(|k| {
         if lines.iter().all(|line| numeric(&line[k])) {
             "---:"

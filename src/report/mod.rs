@@ -23,6 +23,7 @@ mod ranks;
 mod rivals;
 mod rules;
 mod sections;
+mod standings;
 
 #[cfg(test)]
 mod fixture;
@@ -97,12 +98,12 @@ fn write_battery(folder: &Path) -> Result<PathBuf, ReportError> {
     Ok(path)
 }
 
-/// The main findings of a folder, a line each.
-fn finding_lines(folder: &Path) -> Result<String, ReportError> {
+/// The main findings of a folder, as other pages quote them.
+fn findings_in_short(folder: &Path) -> Result<String, ReportError> {
     if is_battery(folder) {
         return Ok(battery::finding_lines(&read_rows(&folder.join(CHUNKS))?));
     }
-    Ok(page::finding_lines(&read(&folder.join(ROWS))?))
+    Ok(page::findings_in_short(&read(&folder.join(ROWS))?))
 }
 
 /// The folder's name, and the question of the plan that lies in it, if there is one.

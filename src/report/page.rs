@@ -17,6 +17,7 @@ use super::ranks;
 use super::rivals;
 use super::rules;
 use super::sections;
+use super::standings::standings;
 use crate::experiment::record::{Outcome, Row};
 use crate::experiment::summary::{by_spacing, first_seen, measured, quantile};
 
@@ -105,6 +106,32 @@ fn main_findings(rows: &[Row]) -> String {
 
 /// One line for each thing asked, with its numbers.
 pub(super) fn finding_lines(rows: &[Row]) -> String {
+    // Beside peers there are too many rivals for a line each.
+    let mut compared = peers::peer_findings(rows);
+    if compared.is_empty() {
+        compared = duels::duel_findings(rows);
+    }
+    let others = sections::order_finding(rows)
+        .into_iter()
+        .chain(compared)
+        .chain(ranks::rank_finding(rows))
+        .chain(claims::claim_findings(rows));
+    bullets(headlines(rows).into_iter().chain(others))
+}
+
+/// The findings as another page quotes them: methods are set side by side in a table, and orders left out.
+pub(super) fn findings_in_short(rows: &[Row]) -> String {
+    let mut lines = headlines(rows);
+    lines.extend(claims::claim_findings(rows));
+    bullets(lines) + &standings(rows)
+}
+
+fn bullets(lines: impl IntoIterator<Item = String>) -> String {
+    lines.into_iter().map(|line| format!("* {line}\n")).collect()
+}
+
+/// What does not set one method against another.
+fn headlines(rows: &[Row]) -> Vec<String> {
     let lines = [
         angles::angle_finding(rows),
         angles::hypothesis_finding(rows),
@@ -114,25 +141,11 @@ pub(super) fn finding_lines(rows: &[Row]) -> String {
         poisson::poisson_finding(rows),
         adapt::adaptation_finding(rows),
         corners::corner_finding(rows),
-        sections::order_finding(rows),
         sections::certificate_finding(rows),
         sections::time_finding(rows),
     ];
-    // Beside peers there are too many rivals for a line each.
-    let mut compared = peers::peer_findings(rows);
-    if compared.is_empty() {
-        compared = duels::duel_findings(rows);
-    }
-    let claims = [claims::seam_finding(rows), claims::sampling_finding(rows)];
-    let lines = lines
-        .into_iter()
-        .flatten()
-        .chain(rules::rule_findings(rows))
-        .chain(background_findings(rows))
-        .chain(compared)
-        .chain(ranks::rank_finding(rows))
-        .chain(claims.into_iter().flatten());
-    lines.map(|line| format!("* {line}\n")).collect()
+    let several = rules::rule_findings(rows).into_iter().chain(background_findings(rows));
+    lines.into_iter().flatten().chain(several).collect()
 }
 
 fn what_was_run(rows: &[Row], name: &str) -> String {

@@ -6,7 +6,7 @@ use crate::experiment::claims::ours;
 use crate::experiment::contest::Contest;
 use crate::experiment::convergence::GROUP;
 use crate::experiment::record::Row;
-use crate::experiment::summary::{first_seen, measured, median};
+use crate::experiment::summary::{first_seen, measured, quantile};
 use crate::fem::Solution;
 
 /// The rows with a problem, split by what was solved where.
@@ -91,38 +91,53 @@ fn has_solution(row: &Row) -> bool {
     measured(row).is_some_and(|report| report.poisson.is_some())
 }
 
-/// Whose error per unknown is smallest, problem by problem, and how far ours is from it.
+/// How far ours is from the smallest error per unknown, with the least and the most over the problems.
 pub(super) fn poisson_finding(rows: &[Row]) -> Option<String> {
-    let told: Vec<String> = by_problem(rows)
-        .iter()
-        .filter_map(|(title, contest)| best(title, contest))
-        .collect();
-    (!told.is_empty()).then(|| format!("**Error per unknown** of a Poisson problem: {}.", told.join("; ")))
-}
-
-fn best(title: &str, contest: &Contest) -> Option<String> {
-    let ours = ours(contest)?;
+    let contests: Vec<Contest> = by_problem(rows).into_iter().map(|(_, contest)| contest).collect();
+    let own = ours(contests.first()?)?;
+    let label = &contests[0].methods[own].label;
     let part = |which: usize| {
-        let mut all: Vec<(usize, f64)> = contest
-            .all()
-            .into_iter()
-            .filter_map(|method| Some((method, yields(contest, method)[which]?)))
+        let shares: Vec<[f64; 3]> = contests
+            .iter()
+            .filter_map(|contest| over_the_best(contest, which))
             .collect();
-        all.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let (first, least) = *all.first()?;
-        let (_, most) = *all.last()?;
-        let own = all.iter().find(|(method, _)| *method == ours)?.1;
-        let middle = median(all.iter().map(|(_, value)| *value).collect())?;
-        Some(format!(
-            "{} smallest with {}, {} {} times that, the median method {}, the worst {}",
-            YIELDS[which].label,
-            contest.methods[first].label,
-            contest.methods[ours].label,
-            number(own / least),
-            number(middle / least),
-            number(most / least)
-        ))
+        let range = |k: usize| {
+            let all: Vec<f64> = shares.iter().map(|share| share[k]).collect();
+            let [least, most] = [0.0, 1.0].map(|q| number(quantile(all.clone(), q)));
+            if least == most {
+                least
+            } else {
+                format!("{least} to {most}")
+            }
+        };
+        (!shares.is_empty()).then(|| {
+            format!(
+                "{} {} times the best method's, the median method's {}, the worst's {}",
+                YIELDS[which].label,
+                range(0),
+                range(1),
+                range(2)
+            )
+        })
     };
     let parts: Vec<String> = [0, 1, 2].into_iter().filter_map(part).collect();
-    (!parts.is_empty()).then(|| format!("`{title}`: {}", parts.join(", ")))
+    (!parts.is_empty()).then(|| {
+        format!(
+            "**Error per unknown** in Poisson problems, {label}: {}.",
+            parts.join("; ")
+        )
+    })
+}
+
+/// What ours, the median method and the worst give over what the best gives.
+fn over_the_best(contest: &Contest, which: usize) -> Option<[f64; 3]> {
+    let own = yields(contest, ours(contest)?)[which]?;
+    let all = contest
+        .all()
+        .into_iter()
+        .filter_map(|method| yields(contest, method)[which]);
+    let all: Vec<f64> = all.collect();
+    let [least, middle, most] = [0.0, 0.5, 1.0].map(|q| quantile(all.clone(), q));
+    let least = least?;
+    Some([own / least, middle? / least, most? / least])
 }

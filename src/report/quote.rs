@@ -1,6 +1,6 @@
 //! The findings of an experiment, quoted in another page.
 
-use super::{ReportError, finding_lines};
+use super::{ReportError, findings_in_short};
 use crate::files::write_whole;
 use std::path::Path;
 
@@ -27,7 +27,7 @@ pub fn quote_findings(folder: &Path, page: &Path) -> Result<bool, ReportError> {
     let Some((_, after)) = rest.split_once(END) else {
         return Ok(false);
     };
-    let findings = finding_lines(folder)?;
+    let findings = findings_in_short(folder)?;
     let quoted = format!("{before}{begin}\n{findings}\n{END}{after}");
     if quoted != text {
         write_whole(page, quoted.as_bytes()).map_err(|source| ReportError::Write {

@@ -197,7 +197,7 @@ fn errors_are_compared_per_unknown() {
     );
     let told = poisson_finding(&rows).expect("a finding");
     assert!(
-        told.contains("energy error · √unknowns smallest with gmsh, biting 1.20 times that"),
+        told.starts_with("**Error per unknown** in Poisson problems, biting: energy error · √unknowns 1.20 times the best method's, the median method's 1.10, the worst's 1.20;"),
         "{told}"
     );
 }

@@ -61,6 +61,45 @@ fn places_are_by_medians_over_common_tasks() {
 }
 
 #[test]
+fn other_pages_quote_a_table_of_one_method_a_mesher() {
+    let told = page::findings_in_short(&three_domains());
+    assert!(
+        !told.contains("**biting : rival**") && !told.contains("among all"),
+        "{told}"
+    );
+    let table: Vec<&str> = told
+        .lines()
+        .skip_while(|line| !line.starts_with("At equal edge length"))
+        .collect();
+    assert!(table[0].contains("the 2 of 3 tasks"), "{told}");
+    let cells = |line: &str| line.split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
+    let [ours, theirs] = [4, 5].map(|k: usize| cells(table[k]));
+    assert_eq!(
+        [ours[1].as_str(), ours[2].as_str(), ours[6].as_str()],
+        ["biting", "25.5", "**1500**"]
+    );
+    assert_eq!(
+        [theirs[1].as_str(), theirs[2].as_str(), theirs[6].as_str()],
+        ["rival", "**26.5**", "3000"]
+    );
+    assert_eq!(table.len(), 6, "{told}");
+    // Who measured one of three is named, and takes no part.
+    let mut rows = three_domains();
+    for row in rows
+        .iter_mut()
+        .filter(|row| row.cell.mesher == "rival" && row.cell.domain == "a")
+    {
+        (row.outcome, row.report) = (Outcome::Failed, None);
+    }
+    let told = page::findings_in_short(&rows);
+    assert!(
+        told.contains("the 3 of 3 tasks") && told.contains("(left out: rival, with fewer than half)"),
+        "{told}"
+    );
+    assert!(!told.contains("| rival"), "{told}");
+}
+
+#[test]
 fn methods_are_named_by_what_differs() {
     let of = |params: Value| Method::of(&asked("meshers", "a", "biting", params));
     assert_eq!(of(none()).label, "biting");
