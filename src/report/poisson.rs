@@ -1,12 +1,13 @@
 //! The part of the page on what quality is for: errors, iterations and eigenvalues of a Poisson problem on each mesh.
 
+use super::findings::spread;
 use super::markdown::{number, table};
 use crate::charts::YIELDS;
 use crate::experiment::claims::ours;
 use crate::experiment::contest::Contest;
 use crate::experiment::convergence::GROUP;
 use crate::experiment::record::Row;
-use crate::experiment::summary::{first_seen, measured, quantile};
+use crate::experiment::summary::{first_seen, measured};
 use crate::fem::Solution;
 
 /// The rows with a problem, split by what was solved where.
@@ -102,23 +103,21 @@ pub(super) fn poisson_finding(rows: &[Row]) -> Option<String> {
             .filter_map(|contest| over_the_best(contest, which))
             .collect();
         let range = |k: usize| {
-            let all: Vec<f64> = shares.iter().map(|share| share[k]).collect();
-            let [least, most] = [0.0, 1.0].map(|q| number(quantile(all.clone(), q)));
-            if least == most {
+            let over = spread(shares.iter().map(|share| share[k]).collect())?;
+            let [least, most] = [over.least, over.most].map(number);
+            Some(if least == most {
                 least
             } else {
                 format!("{least} to {most}")
-            }
+            })
         };
-        (!shares.is_empty()).then(|| {
-            format!(
-                "{} {} times the best method's, the median method's {}, the worst's {}",
-                YIELDS[which].label,
-                range(0),
-                range(1),
-                range(2)
-            )
-        })
+        Some(format!(
+            "{} {} times the best method's, the median method's {}, the worst's {}",
+            YIELDS[which].label,
+            range(0)?,
+            range(1)?,
+            range(2)?
+        ))
     };
     let parts: Vec<String> = [0, 1, 2].into_iter().filter_map(part).collect();
     (!parts.is_empty()).then(|| {
@@ -136,8 +135,6 @@ fn over_the_best(contest: &Contest, which: usize) -> Option<[f64; 3]> {
         .all()
         .into_iter()
         .filter_map(|method| yields(contest, method)[which]);
-    let all: Vec<f64> = all.collect();
-    let [least, middle, most] = [0.0, 0.5, 1.0].map(|q| quantile(all.clone(), q));
-    let least = least?;
-    Some([own / least, middle? / least, most? / least])
+    let all = spread(all.collect())?;
+    Some([own, all.median, all.most].map(|value| value / all.least))
 }
