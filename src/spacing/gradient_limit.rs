@@ -17,8 +17,9 @@
 //!   v_C + α d ≥ k (U + α r + α d) ≥ k f_α.
 //!
 //! # Steps
-//! [`envelope`] refines the cells that meet Ω level by level. A cell is dropped, kept, or split into four, by the
-//! samples of all levels so far ([`Samples`]); then cells are joined again from below where the joined cell may be kept.
+//! [`envelope`] refines the cells that meet Ω level by level. A cell is kept, or split into four, by the samples of all levels
+//! so far ([`Samples`]); then, from below, kept cells are dropped that a sample dominates, and cells are joined again where the
+//! joined cell may be kept.
 //!
 //! # Cost
 //! Only cells near valleys and local minima of f survive, where f rises more slowly than α: about (their length) /
@@ -175,19 +176,22 @@ impl Refinement<'_> {
     /// The best sample a cell offers, and the lower bound of f on it.
     fn look(&self, cell: &Cell, seeds: &[[Seed; 3]]) -> (Seed, f64) {
         let at = cell.point(self.domain);
-        let mut best = Seed {
-            at,
-            value: self.function.at(at),
+        let value = self.function.at(at);
+        let lowest = if at == cell.rect.centre() {
+            self.function.lower_bound_from(cell.rect, value)
+        } else {
+            self.function.lower_bound(cell.rect)
         };
+        let mut best = Seed { at, value };
         for seed in cell.crossing.iter().flat_map(|&s| &seeds[s as usize]) {
             if seed.value < best.value && cell.rect.contains(seed.at) {
                 best = *seed;
             }
         }
-        (best, self.function.lower_bound(cell.rect) - self.slack)
+        (best, lowest - self.slack)
     }
 
-    /// Drops, keeps and splits cells until none is left to split. Returns where each level starts.
+    /// Keeps and splits cells until none is left to split. Returns where each level starts.
     fn refine(&mut self, root: Cell, seeds: &[[Seed; 3]]) -> Result<Vec<usize>, SpacingError> {
         let mut level = vec![root];
         let mut starts = Vec::new();
@@ -216,18 +220,17 @@ impl Refinement<'_> {
         Ok(starts)
     }
 
-    /// An upper bound of f_α on the cell of `node`: U + α r.
-    fn reach(&self, node: usize) -> f64 {
+    /// Whether `lowest` is at least `share` of an upper bound of f_α on the cell of `node`, that is of U + α r.
+    fn reaches(&self, lowest: f64, share: f64, node: usize) -> bool {
         let cell = self.samples.cell(node);
-        self.samples.lowest_at(cell.centre(), node) + self.alpha * 0.5 * cell.diagonal()
+        let rise = self.alpha * 0.5 * cell.diagonal();
+        self.samples
+            .any(cell.centre(), node, |value| lowest >= share * (value + rise))
     }
 
+    /// The fate of a node when all samples are those of its level and the levels above.
     fn fate(&self, node: usize) -> Fate {
-        let lowest = self.lowest[node];
-        let reach = self.reach(node);
-        if lowest >= reach {
-            Fate::Dropped
-        } else if lowest >= self.factor * reach {
+        if self.reaches(self.lowest[node], self.factor, node) {
             Fate::Kept
         } else {
             Fate::Split
@@ -263,7 +266,7 @@ impl Refinement<'_> {
         Ok(next)
     }
 
-    /// Drops kept cells that later samples dominate, and joins quarters into their cell where that may be kept.
+    /// Drops kept cells that samples dominate, and joins quarters into their cell where that may be kept.
     fn join(&mut self, starts: &[usize]) {
         let mut end = self.fates.len();
         for &start in starts.iter().rev() {
@@ -288,13 +291,11 @@ impl Refinement<'_> {
         let kept = children.clone().filter(|&child| self.fates[child] == Fate::Kept);
         let joined = kept.map(|child| self.lowest[child]).fold(f64::INFINITY, f64::min);
         match self.fates[node] {
-            Fate::Dropped => (Fate::Dropped, f64::INFINITY),
-            Fate::Kept if self.lowest[node] >= self.reach(node) => (Fate::Dropped, f64::INFINITY),
-            Fate::Kept => (Fate::Kept, self.lowest[node]),
+            Fate::Kept if self.reaches(self.lowest[node], 1.0, node) => (Fate::Dropped, f64::INFINITY),
             Fate::Split if children.clone().any(|child| self.fates[child] == Fate::Split) => (Fate::Split, 0.0),
             Fate::Split if joined.is_infinite() => (Fate::Dropped, f64::INFINITY),
-            Fate::Split if joined >= self.factor * self.reach(node) => (Fate::Kept, joined),
-            Fate::Split => (Fate::Split, 0.0),
+            Fate::Split if self.reaches(joined, self.factor, node) => (Fate::Kept, joined),
+            settled => (settled, self.lowest[node]),
         }
     }
 

@@ -153,7 +153,11 @@ impl Spacing for Lfs {
     }
 
     fn lower_bound(&self, cell: Rect) -> f64 {
-        (self.at(cell.centre()) - 0.5 * cell.diagonal()).max(self.smallest())
+        self.lower_bound_from(cell, self.at(cell.centre()))
+    }
+
+    fn lower_bound_from(&self, cell: Rect, at_centre: f64) -> f64 {
+        (at_centre - 0.5 * cell.diagonal()).max(self.smallest())
     }
 }
 

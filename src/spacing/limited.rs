@@ -2,16 +2,13 @@
 //! terms that matter in each part of the plane, by a walk down to one of these.
 
 use super::Spacing;
-use super::cover::DEPTH;
+use super::waiting::Waiting;
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
 use listed::Listed;
 use std::ops::Range;
 
 mod listed;
-
-/// Most branches waiting in a query: three a level, and the four that are being entered.
-const STACK: usize = 3 * DEPTH + 8;
 
 /// A term of F, or the box around several with the smallest v among them.
 #[derive(Clone, Copy, Debug)]
@@ -110,12 +107,8 @@ impl Limited {
 
     /// The same, for a branch that is no term, with its bound there.
     fn lowest_below(&self, from: (f64, u32), x: DVec2, mut best: (f64, u32)) -> (f64, u32) {
-        let mut stack = [(0.0, 0u32); STACK];
-        stack[0] = from;
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (bound, index) = stack[height];
+        let mut waiting = Waiting::new(from.0, from.1);
+        while let Some((bound, index)) = waiting.next() {
             if bound >= best.0 {
                 continue;
             }
@@ -124,21 +117,12 @@ impl Limited {
                 best = (bound, index);
                 continue;
             }
-            let mut entered = height;
             for part in branch.range() {
                 let bound = self.branches[part as usize].at(x, self.alpha);
                 if bound < best.0 {
-                    // Kept in descending order, so that the most promising part is entered first.
-                    let mut place = entered;
-                    while place > height && stack[place - 1].0 < bound {
-                        stack[place] = stack[place - 1];
-                        place -= 1;
-                    }
-                    stack[place] = (bound, part);
-                    entered += 1;
+                    waiting.file(bound, part);
                 }
             }
-            height = entered;
         }
         best
     }

@@ -53,6 +53,7 @@ mod shortlist;
 #[cfg(test)]
 pub(crate) mod testing;
 mod uniform;
+mod waiting;
 
 pub use background::Background;
 pub use combine::{Min, Scaled};
@@ -104,6 +105,11 @@ pub trait Spacing: Send + Sync {
     /// A proved lower bound of f on the closed box: by default what the Lipschitz constant gives from the centre.
     fn lower_bound(&self, cell: Rect) -> f64 {
         self.at(cell.centre()) - self.lipschitz() * 0.5 * cell.diagonal()
+    }
+
+    /// The same where f at the box's centre is known.
+    fn lower_bound_from(&self, cell: Rect, _at_centre: f64) -> f64 {
+        self.lower_bound(cell)
     }
 
     /// A proved upper bound of f on the closed box: by default what the Lipschitz constant gives from the centre.

@@ -1,10 +1,8 @@
-//! Samples of f in a quadtree: the smallest f(y) + α‖x − y‖ over all of them, by branch and bound.
+//! Samples of f in a quadtree: whether the smallest f(y) + α‖x − y‖ over all of them is low enough, by branch and bound.
 
 use super::cover::Cell;
+use super::waiting::Waiting;
 use crate::geometry::{DVec2, Rect};
-
-/// Most nodes waiting in a query: three a level, and the four that are being entered.
-const STACK: usize = 3 * super::cover::DEPTH + 8;
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -89,37 +87,27 @@ impl Samples {
         node.value + self.alpha * node.at.distance(x)
     }
 
-    /// min over all samples y of f(y) + α‖x − y‖; `near` is a node whose sample is thought to be good.
-    pub fn lowest_at(&self, x: DVec2, near: usize) -> f64 {
-        let mut best = self.through(&self.nodes[near], x);
-        let mut stack = [(0.0, 0); STACK];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (bound, index): (f64, u32) = stack[height];
-            if bound >= best {
-                continue;
-            }
+    /// Whether some sample y has an f(y) + α‖x − y‖ that `suffices`, as must all that is lower than one that does; `near` is a
+    /// node whose sample is looked at first.
+    pub fn any(&self, x: DVec2, near: usize, suffices: impl Fn(f64) -> bool) -> bool {
+        if suffices(self.through(&self.nodes[near], x)) {
+            return true;
+        }
+        let mut waiting = Waiting::new(0.0, 0);
+        while let Some((_, index)) = waiting.next() {
             let node = &self.nodes[index as usize];
-            best = best.min(self.through(node, x));
-            let mut entered = height;
+            if suffices(self.through(node, x)) {
+                return true;
+            }
             for child in node.first..node.first + node.children {
                 let inner = &self.nodes[child as usize];
                 let bound = inner.lowest + self.alpha * inner.cell.distance(x);
-                if bound < best {
-                    // Kept in descending order, so that the most promising child is entered first.
-                    let mut at = entered;
-                    while at > height && stack[at - 1].0 < bound {
-                        stack[at] = stack[at - 1];
-                        at -= 1;
-                    }
-                    stack[at] = (bound, child);
-                    entered += 1;
+                if suffices(bound) {
+                    waiting.file(bound, child);
                 }
             }
-            height = entered;
         }
-        best
+        false
     }
 }
 
@@ -164,7 +152,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
         #[test]
-        fn the_lowest_is_that_of_looking_at_all_samples(
+        fn what_suffices_is_found_if_the_lowest_of_all_samples_does(
             choices in prop::collection::vec(0usize..1000, 0..20),
             values in prop::collection::vec(0.1f64..10.0, 97),
             x in (-0.5f64..1.5, -0.5f64..1.5),
@@ -172,9 +160,10 @@ mod tests {
         ) {
             let (samples, x) = (tree(&choices, &values, alpha), DVec2::new(x.0, x.1));
             let all = samples.nodes.iter().map(|node| node.value + alpha * node.at.distance(x));
-            let expected = all.fold(99.0, f64::min);
+            let lowest = all.fold(99.0, f64::min);
             for near in [0, samples.len() / 2, samples.len() - 1] {
-                prop_assert_eq!(samples.lowest_at(x, near), expected);
+                prop_assert!(samples.any(x, near, |value| value <= lowest));
+                prop_assert!(!samples.any(x, near, |value| value < lowest));
             }
         }
 

@@ -267,9 +267,9 @@ fn rounding_is_granted_by_the_size_of_coordinates() {
     }
 }
 
-/// What becomes of a cell with lower bound v: dropped from v = U + α r on, kept from k (U + α r) on.
+/// What becomes of a cell with lower bound v: kept from k (U + α r) on, and dropped in the end from U + α r on.
 #[test]
-fn cells_are_dropped_kept_and_split_by_what_samples_reach() {
+fn cells_are_kept_split_and_dropped_by_what_samples_reach() {
     let domain = gallery("unit-square");
     let steep = Steep::new(1.0, 1.0, 1.0);
     let mut refinement = refinement(&steep, &domain, 0.5, 0.75);
@@ -277,18 +277,18 @@ fn cells_are_dropped_kept_and_split_by_what_samples_reach() {
     refinement.samples.set(0, at, 2.0);
     // The sample is ¼ from the centre of the square, a corner √½.
     let reach = 2.0 + 0.5 * 0.25 + 0.5 * 0.5f64.sqrt();
-    assert!((refinement.reach(0) - reach).abs() < 1e-15);
-    let reach = refinement.reach(0);
-    for (lowest, fate) in [
-        (reach.next_up(), Fate::Dropped),
-        (reach, Fate::Dropped),
-        (reach.next_down(), Fate::Kept),
-        (0.75 * reach, Fate::Kept),
-        ((0.75 * reach).next_down(), Fate::Split),
-        (0.0, Fate::Split),
+    for (lowest, fate, settled) in [
+        (reach + 1e-15, Fate::Kept, Fate::Dropped),
+        (reach - 1e-15, Fate::Kept, Fate::Kept),
+        (0.75 * reach + 1e-15, Fate::Kept, Fate::Kept),
+        (0.75 * reach - 1e-15, Fate::Split, Fate::Dropped),
+        (0.0, Fate::Split, Fate::Dropped),
     ] {
         refinement.lowest = vec![lowest];
         assert_eq!(refinement.fate(0), fate, "{lowest} of {reach}");
+        refinement.fates = vec![fate];
+        // A cell of no quarters at all has none that is kept.
+        assert_eq!(refinement.judge(0).0, settled, "{lowest} of {reach}");
     }
 }
 
@@ -338,7 +338,7 @@ fn quarters_are_joined_where_their_cell_may_be_kept() {
     );
     assert_eq!(late.judge(1), (Fate::Dropped, f64::INFINITY));
     assert_eq!(late.judge(2), kept(reach - 1e-9));
-    assert_eq!(late.judge(3), (Fate::Dropped, f64::INFINITY));
+    assert_eq!(late.judge(3).0, Fate::Dropped);
 }
 
 #[test]
