@@ -250,6 +250,26 @@ fn a_cell_offers_its_lowest_seed_if_that_is_below_its_own_point() {
     assert_eq!(look("3", &cells[0]), DVec2::splat(0.25));
 }
 
+/// Also where a cell's point is not its centre, f at which the bound may be taken from.
+#[test]
+fn a_cell_has_the_lower_bound_of_the_function() {
+    let domain = gallery("star");
+    let lfs = crate::spacing::lfs_of(&domain).unwrap();
+    let refinement = refinement(&lfs, &domain, 0.5, 0.9);
+    let seeds = refinement.seeds();
+    let mut cells = vec![Cell::root(&domain)];
+    let mut beside = 0;
+    for _ in 0..5 {
+        cells = cells.iter().flat_map(|cell| cell.split(&domain)).collect();
+        for cell in &cells {
+            let (_, lowest) = refinement.look(cell, &seeds);
+            assert_eq!(lowest, lfs.lower_bound(cell.rect) - 0.125);
+            beside += usize::from(cell.point(&domain) != cell.rect.centre());
+        }
+    }
+    assert!(beside > 10, "{beside} of {}", cells.len());
+}
+
 /// A lower bound gives way by 16 ulp of the largest coordinate.
 #[test]
 fn rounding_is_granted_by_the_size_of_coordinates() {
