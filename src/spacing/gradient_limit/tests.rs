@@ -295,13 +295,15 @@ fn cells_are_kept_split_and_dropped_by_what_samples_reach() {
     let mut refinement = refinement(&steep, &domain, 0.5, 0.75);
     let at = DVec2::new(0.5, 0.25);
     refinement.samples.set(0, at, 2.0);
-    // The sample is ¼ from the centre of the square, a corner √½.
-    let reach = 2.0 + 0.5 * 0.25 + 0.5 * 0.5f64.sqrt();
+    // The sample is ¼ from the centre of the square, a corner half a diagonal.
+    let reach = 2.0 + 0.5 * 0.25 + 0.5 * 0.5 * refinement.samples.cell(0).diagonal();
+    assert!((reach - 2.125 - 0.5 * 0.5f64.sqrt()).abs() < 1e-15);
     for (lowest, fate, settled) in [
-        (reach + 1e-15, Fate::Kept, Fate::Dropped),
-        (reach - 1e-15, Fate::Kept, Fate::Kept),
-        (0.75 * reach + 1e-15, Fate::Kept, Fate::Kept),
-        (0.75 * reach - 1e-15, Fate::Split, Fate::Dropped),
+        (reach.next_up(), Fate::Kept, Fate::Dropped),
+        (reach, Fate::Kept, Fate::Dropped),
+        (reach.next_down(), Fate::Kept, Fate::Kept),
+        (0.75 * reach, Fate::Kept, Fate::Kept),
+        ((0.75 * reach).next_down(), Fate::Split, Fate::Dropped),
         (0.0, Fate::Split, Fate::Dropped),
     ] {
         refinement.lowest = vec![lowest];
