@@ -318,8 +318,14 @@ mod tests {
             matches!(told, Some(SpacingError::Unresolved { x: 0.4, .. })),
             "{told:?}"
         );
-        vertices[4].y = 1e-12;
-        assert!(Lfs::new(&vertices, &segments).is_ok());
+        for size in [1.0, 1024.0] {
+            let mut vertices: Vec<DVec2> = square().0.into_iter().map(|x| size * x).collect();
+            let least = RESOLUTION * size;
+            vertices.push(DVec2::new(0.5 * size, least));
+            assert!(Lfs::new(&vertices, &segments).is_ok(), "{size}");
+            vertices[4].y = least.next_down();
+            assert!(Lfs::new(&vertices, &segments).is_err(), "{size}");
+        }
     }
 
     proptest! {
