@@ -7,9 +7,9 @@
 mod waves;
 
 use biting::domain::{Domain, gallery};
-use biting::experiment::summary::median;
 use biting::meshers::{Budget, Entry, MESHERS, Mesher, Parameters, Request, Trace};
 use biting::spacing::{Spacing, Uniform};
+use biting::suite::rows::numbers::median;
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use std::time::{Duration, Instant};
 use waves::Waves;

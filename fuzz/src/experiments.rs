@@ -1,9 +1,9 @@
 //! Experiment plans and rows.
 
 use crate::scratch;
-use biting::experiment::journal::{Journal, Line, read_rows};
-use biting::experiment::plan::Plan;
-use biting::experiment::record::Row;
+use biting::suite::rows::journal::{Journal, Line, read_rows};
+use biting::suite::run::plan::Plan;
+use biting::suite::rows::record::Row;
 
 /// A plan: its cells, whole and quick.
 pub fn plan(data: &[u8]) {

@@ -17,6 +17,7 @@ mod snapshot;
 
 pub use budget::Budget;
 use budget::Monitor;
+#[cfg(feature = "suite")]
 pub(crate) use budget::resident_bytes;
 pub use snapshot::{Bite, Reason, Waiting};
 

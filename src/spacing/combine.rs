@@ -1,7 +1,7 @@
 //! Spacings made of spacings: the smallest of several, and a multiple (Lemma 2.3).
 
-use super::Spacing;
 use crate::geometry::{DVec2, Rect};
+use crate::spacing::Spacing;
 use std::sync::Arc;
 
 /// `min(A, B)`: f(x) = min(A(x), B(x)), Lipschitz with the larger of the two constants (Lemma 2.3).
@@ -120,8 +120,8 @@ impl Spacing for Scaled {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Expression, Uniform};
     use super::*;
+    use crate::spacing::{Expression, Uniform};
 
     const BOX: Rect = Rect {
         min: DVec2::ZERO,

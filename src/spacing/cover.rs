@@ -1,9 +1,9 @@
 //! Quadtree cells that meet Ω, and a point of Ω in each.
 
-use super::{Spacing, SpacingError};
 use crate::domain::Domain;
 use crate::geometry::segments::meets_box;
 use crate::geometry::{DVec2, Rect};
+use crate::spacing::{Spacing, SpacingError};
 
 /// Deepest cell: 2⁻⁴⁵ of the domain, where coordinates end.
 pub const DEPTH: usize = 45;

@@ -1,10 +1,10 @@
 //! Oracles and inputs for the tests of this folder.
 
-use super::{Options, build};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use crate::meshers::{Budget, Parameters, Request, Trace};
+use crate::spacing::{Options, build};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 

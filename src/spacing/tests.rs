@@ -1,7 +1,7 @@
 //! What `build` makes of a SPEC.
 
-use super::testing::{gallery, points_inside};
-use super::*;
+use crate::spacing::testing::{gallery, points_inside};
+use crate::spacing::*;
 
 #[test]
 fn every_spacing_is_capped_limited_and_named() {

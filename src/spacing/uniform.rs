@@ -1,7 +1,7 @@
 //! `uniform:H`: f = H everywhere.
 
-use super::Spacing;
 use crate::geometry::{DVec2, Rect};
+use crate::spacing::Spacing;
 
 /// f(x) = H.
 #[derive(Clone, Copy, Debug, PartialEq)]

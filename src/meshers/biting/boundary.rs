@@ -1,9 +1,9 @@
 //! Boundary protection (§5.1 steps 3 and 4, §6.2): bites at the input vertices, then along the input segments.
 
-use super::front::Front;
-use super::gap::Gap;
 use crate::geometry::near::{Disc, Near};
 use crate::mesh::Piece;
+use crate::meshers::biting::front::Front;
+use crate::meshers::biting::gap::Gap;
 use crate::meshers::{MeshError, Reason};
 use std::collections::VecDeque;
 

@@ -11,15 +11,15 @@
 //! # Cost
 //! O(1) a bite, however graded the spacing is; nothing is scanned globally or rebuilt.
 
-use super::Biting;
-use super::corners::Cuts;
-use super::inside::Inside;
-use super::notches::Notches;
-use super::order::{Queue, RANK_STEP, Ticket};
-use super::rule::Meeting;
 use crate::domain::Domain;
 use crate::geometry::near::{Disc, DiscGrid, Near};
 use crate::geometry::{DVec2, tolerance};
+use crate::meshers::biting::Biting;
+use crate::meshers::biting::beyond::corners::Cuts;
+use crate::meshers::biting::beyond::inside::Inside;
+use crate::meshers::biting::beyond::notches::Notches;
+use crate::meshers::biting::beyond::rule::Meeting;
+use crate::meshers::biting::order::{Queue, RANK_STEP, Ticket};
 use crate::meshers::sizing::Sizing;
 use crate::meshers::{Bite, MeshError, Monitor, Reason, Request, Waiting};
 use crate::spacing::{Rule, Spacing};

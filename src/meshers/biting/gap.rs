@@ -1,10 +1,10 @@
 //! A part of a segment that may be uncovered, and what points eat of it by either rule.
 
-use super::front::Front;
-use super::watch::Watch;
 use crate::geometry::near::{Disc, Near};
 use crate::geometry::{DVec2, tolerance};
 use crate::meshers::MeshError;
+use crate::meshers::biting::beyond::crossing::Watch;
+use crate::meshers::biting::front::Front;
 use crate::spacing::Rule;
 
 /// A part of a segment that may be uncovered, seen from the end at which it is bitten next.

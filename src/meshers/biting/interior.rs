@@ -1,8 +1,8 @@
 //! Interior biting (§5.1 step 5).
 
-use super::front::Front;
 use crate::geometry::DVec2;
 use crate::meshers::MeshError;
+use crate::meshers::biting::front::Front;
 
 /// Bites at front vertices, in the order of bites, until the front is empty, and returns the mesh vertices: the
 /// input's, then all other centres in the order they were bitten, boundary first.

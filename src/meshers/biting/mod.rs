@@ -9,7 +9,7 @@
 //! # Steps
 //! 1. the control spacing is prepared before ([`crate::spacing`]);
 //! 2. the initial front is the boundary of the domain ([`front::Front::new`]);
-//!    Corners are cut off and the spacing is held down beside them ([`corners`]);
+//!    Corners are cut off and the spacing is held down beside them ([`beyond::corners`]);
 //! 3. [`boundary::vertex_protection`] bites every input vertex;
 //! 4. [`boundary::edge_protection`] bites along the input segments until they are covered;
 //! 5. [`interior::interior_biting`] bites at front vertices until the front is empty;
@@ -26,9 +26,9 @@
 //! nothing was cut or held down.
 //!
 //! With `rule=later` two points keep the distance that the later of them asks for, and the smallest angle is at least
-//! asin((1 − t) / 2): [`rule`] has the theorem, its proof and the other bounds, which the certificate then holds.
+//! asin((1 − t) / 2): [`beyond::rule`] has the theorem, its proof and the other bounds, which the certificate then holds.
 //!
-//! With `lfs:geodesic` circles bite what they reach inside the domain only, and the same bounds hold: [`inside`] has the argument.
+//! With `lfs:geodesic` circles bite what they reach inside the domain only, and the same bounds hold: [`beyond::inside`] has the argument.
 //!
 //! # Cost
 //! O(1) a bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
@@ -46,7 +46,7 @@
 //!   They need no acute angle: a middle piece on an inner segment can be 1.5 radii long, and vertices √7/4 radii above and
 //!   below its middle lie in its diametral circle.
 //! * Input angles under 90°, which the paper excludes, are cut off, as §5.1 suggests without saying how, and given back
-//!   ([`corners`]); and circles do not cover across an angle under 90° that opens to the outside ([`notches`]). With
+//!   ([`beyond::corners`]); and circles do not cover across an angle under 90° that opens to the outside ([`beyond::notches`]). With
 //!   [`Corners::Bite`] they are bitten like any other: a point of one segment that a circle of another covers already gets
 //!   no circle of its own.
 //! * Where the circles of a segment's two ends would cover it between them and meet low, which Lemma 6.4 does not see, they
@@ -58,32 +58,26 @@
 // The steps are private; their links work in `cargo doc --document-private-items`.
 #![allow(rustdoc::private_intra_doc_links)]
 
+pub mod beyond;
 mod boundary;
-mod capped;
-mod corners;
-mod fan;
 mod front;
 mod gap;
-pub mod inside;
 mod interior;
-mod notches;
 mod order;
-pub mod rule;
 #[cfg(test)]
 mod tests;
-mod watch;
 
 pub use order::Order;
 
-use super::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::mesh::{Mesh, Piece};
+use crate::meshers::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
 use crate::spacing::{Rule, Spacing};
-use corners::Cuts;
-use inside::Inside;
-use notches::Notches;
+use beyond::corners::Cuts;
+use beyond::inside::Inside;
+use beyond::notches::Notches;
 use serde::{Deserialize, Serialize};
 
 /// What is done about input angles under 90°, which the paper's theorems exclude.

@@ -2,7 +2,7 @@
 //!
 //! The paper leaves it open ("a sharpest nose", §5.1) and every bound holds for all of them; quality is won here.
 
-use super::front::FrontVertex;
+use crate::meshers::biting::front::FrontVertex;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
 //! What the certificate does not see: the rules of step 4, the orders, refusals.
 
-use super::*;
 use crate::domain::gallery;
+use crate::meshers::biting::*;
 use crate::meshers::{Budget, Parameters, Reason, Waiting};
 use crate::quality::{Bounds, judge};
 use crate::spacing::{Options, build};

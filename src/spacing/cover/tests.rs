@@ -1,6 +1,6 @@
-use super::super::testing::{gallery, points_inside};
-use super::super::{Expression, Uniform};
-use super::*;
+use crate::spacing::cover::*;
+use crate::spacing::testing::{gallery, points_inside};
+use crate::spacing::{Expression, Uniform};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The cells so many levels below the root.

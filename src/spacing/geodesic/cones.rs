@@ -1,4 +1,4 @@
-//! The largest α-Lipschitz function below given values at the vertices of a mesh, nearly: a first guess for [`super::slopes`].
+//! The largest α-Lipschitz function below given values at the vertices of a mesh, nearly: a first guess for [`crate::spacing::geodesic::slopes`].
 //!
 //! It is the least of the cones v_y + α d(x, y) over the vertices y. A vertex takes over the cone that a neighbour has, straight
 //! from its apex if that can be seen, else with the neighbour for apex: shortest ways turn at vertices of the domain,

@@ -29,11 +29,11 @@ mod tests;
 
 pub use limit::{GeodesicLimited, limit};
 
-use super::{Lfs, Rect, Spacing, SpacingError};
 use crate::delaunay::Reach;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::RESOLUTION;
+use crate::spacing::{Lfs, Rect, Spacing, SpacingError};
 use std::sync::Arc;
 
 /// lfs by distances inside the domain.
@@ -48,7 +48,7 @@ impl GeodesicLfs {
     /// Of a domain with this lfs.
     ///
     /// # Errors
-    /// [`SpacingError::NoFeatures`], [`SpacingError::Unresolved`] as for [`super::Lfs`], [`SpacingError::Triangulation`] where
+    /// [`SpacingError::NoFeatures`], [`SpacingError::Unresolved`] as for [`crate::spacing::Lfs`], [`SpacingError::Triangulation`] where
     /// the domain cannot be triangulated.
     pub fn new(domain: &Domain, in_plane: Arc<Lfs>) -> Result<Self, SpacingError> {
         let reach = Reach::new(domain)?;

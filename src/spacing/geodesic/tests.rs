@@ -1,8 +1,8 @@
-use super::super::testing::{gallery, points_by};
-use super::super::{Options, build, lfs_of, limit as limited};
-use super::slopes::Slopes;
-use super::*;
 use crate::geometry::predicates::{Meeting, segments_meet};
+use crate::spacing::geodesic::slopes::Slopes;
+use crate::spacing::geodesic::*;
+use crate::spacing::testing::{gallery, points_by};
+use crate::spacing::{Options, build, lfs_of, limit as limited};
 use std::sync::Arc;
 
 fn sees(domain: &Domain, x: DVec2, y: DVec2) -> bool {
@@ -170,7 +170,7 @@ fn with_others_it_is_the_smallest() {
         .err()
         .expect("refused");
     assert!(matches!(told, SpacingError::Geodesic { .. }), "{told}");
-    let told = super::super::background(geodesic(&domain), &domain, 0.3, 0.1)
+    let told = crate::spacing::background(geodesic(&domain), &domain, 0.3, 0.1)
         .err()
         .expect("refused");
     assert!(told.to_string().contains("leave out the background"), "{told}");

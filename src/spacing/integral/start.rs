@@ -5,13 +5,13 @@
 //! own triangulation would not do: a long segment opposite to many short ones, or a round outline of many, makes needles, each
 //! of which is cut into as many parts as a wide triangle would be.
 
-use super::super::cover::{Cell, DEPTH};
-use super::{EVALUATIONS_A_PART, MAX_EVALUATIONS, SpacingError, Triangle, centroid, checked};
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::mesh::Piece;
 use crate::spacing::Spacing;
+use crate::spacing::cover::{Cell, DEPTH};
+use crate::spacing::integral::{EVALUATIONS_A_PART, MAX_EVALUATIONS, SpacingError, Triangle, centroid, checked};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -1,7 +1,7 @@
-use super::super::testing::gallery;
-use super::super::{Expression, Lfs, Options, Uniform, build, lfs_of};
-use super::*;
 use crate::domain::{Fill, InputSegment, Pslg};
+use crate::spacing::integral::*;
+use crate::spacing::testing::gallery;
+use crate::spacing::{Expression, Lfs, Options, Uniform, build, lfs_of};
 
 fn of_expression(text: &str, tolerance: f64) -> Integral {
     let domain = gallery("unit-square");

@@ -1,6 +1,6 @@
 //! Biting by the rule of the later point: its bounds, the rule itself by loops, and where the two rules agree.
 
-use super::*;
+use crate::meshers::biting::tests::*;
 
 /// Bites by the rule of the later point, and judges by it.
 fn by_later(name: &str, spec: &str, t: f64, c_b: f64, order: Order) -> (Mesh, crate::quality::Certificate) {

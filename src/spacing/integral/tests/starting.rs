@@ -1,7 +1,7 @@
 //! The triangles and pieces that integration starts from.
 
-use super::super::start::{base, bisect, cut, inner_points, longest_edge, middles, narrowest, triangles};
-use super::*;
+use crate::spacing::integral::start::{base, bisect, cut, inner_points, longest_edge, middles, narrowest, triangles};
+use crate::spacing::integral::tests::*;
 
 fn area([a, b, c]: &Triangle) -> f64 {
     0.5 * (*b - *a).perp_dot(*c - *a)

@@ -1,0 +1,10 @@
+//! What rows say together: summaries, contests of methods, series, the expectations of a plan.
+
+pub mod contest;
+pub mod convergence;
+pub mod expect;
+pub mod expect_battery;
+pub mod frontier;
+pub mod remarks;
+pub mod series;
+pub mod summary;

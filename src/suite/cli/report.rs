@@ -1,0 +1,26 @@
+//! `report`: charts and pages again, from the rows alone.
+
+use super::exit::{Failure, Outcome};
+use super::output::say;
+use crate::suite::report;
+use std::path::{Path, PathBuf};
+
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The experiment's folder, with its rows.jsonl
+    #[arg(default_value = "results/sweep")]
+    folder: PathBuf,
+}
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    write(&arguments.folder)
+}
+
+/// Writes charts and page of a results folder, and the findings into the README of the working folder if that asks for
+/// them.
+pub fn write(folder: &Path) -> Outcome {
+    let page = report::write(folder).map_err(Failure::input)?;
+    say(format_args!("rows, charts and page: {}", page.display()));
+    report::quote_findings(folder, Path::new("README.md")).map_err(Failure::input)?;
+    Ok(())
+}

@@ -1,0 +1,338 @@
+//! `sweep [EXPERIMENT.toml]`: the main job.
+
+use super::battery;
+use super::exit::{Failure, Outcome};
+use super::list::EXPERIMENTS;
+use super::output::{say, say_aside};
+use super::progress::Progress;
+use super::shards::{file_name, join, say_done};
+use super::values::bytes;
+use crate::files::write_whole;
+use crate::suite::analysis::expect::{Finding, anything_measured, findings};
+use crate::suite::rows::journal::{Journal, Record};
+use crate::suite::rows::machine;
+use crate::suite::rows::record::{self, Cell, Provenance, Row};
+use crate::suite::run::battery::CHUNKS;
+use crate::suite::run::measure;
+use crate::suite::run::plan::{Plan, PlannedCell};
+use crate::suite::run::prepare::Store;
+use crate::suite::run::runner::{self, Sweep};
+use crate::suite::run::work::{self, Shard, Task};
+use std::path::{Path, PathBuf};
+
+/// Of the memory that is free when a sweep starts, cells that run side by side use at most this share.
+const MEMORY_SHARE: f64 = 0.6;
+
+/// Memory taken to be there where the system does not tell, bytes.
+const UNKNOWN_MEMORY: u64 = 2_000_000_000;
+
+/// Seconds of one core a triangle costs, mesh and certificate and spacing together, for the estimate of `--dry-run`:
+/// the committed sweep's, rounded up.
+const SECONDS_PER_TRIANGLE: f64 = 4e-6;
+
+#[derive(clap::Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    #[command(subcommand)]
+    part: Option<Part>,
+    #[command(flatten)]
+    place: Place,
+    #[command(flatten)]
+    how: How,
+    /// Run the I-th of N parts; `sweep merge` joins them
+    #[arg(long, value_name = "I/N")]
+    shard: Option<Shard>,
+}
+
+#[derive(clap::Subcommand)]
+enum Part {
+    /// Join the rows of all shards, then draw charts and write the page
+    Merge(Place),
+}
+
+/// Which plan, how much of it, and where its results go.
+#[derive(clap::Args)]
+pub struct Place {
+    /// The experiment [default: the one in experiments/ named as the verb]
+    #[arg(value_name = "EXPERIMENT.toml")]
+    experiment: Option<PathBuf>,
+    /// Where the folders of results stand
+    #[arg(long, value_name = "FOLDER", default_value = "results")]
+    results: PathBuf,
+    /// Only the small part of the experiment that its `quick` tables name, in a folder of its own
+    #[arg(long)]
+    quick: bool,
+}
+
+/// How cells are run.
+#[derive(clap::Args)]
+pub struct How {
+    /// Start anew; rows that are there are kept under another name
+    #[arg(long)]
+    fresh: bool,
+    /// Print the cells and an estimate of the time, and run nothing
+    #[arg(long)]
+    pub(super) dry_run: bool,
+    /// Cells that run side by side [default: all cores]
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Memory that cells running side by side may use together, such as 4G; a cell that needs more is skipped
+    /// [default: most of what is free]
+    #[arg(long, value_name = "BYTES", value_parser = bytes)]
+    max_memory: Option<u64>,
+}
+
+impl Place {
+    /// The plan of the experiment, by default the one of that name among this checkout's.
+    pub fn plan(&self, default: &str) -> Result<Plan, Failure> {
+        let default = || Path::new(EXPERIMENTS).join(format!("{default}.toml"));
+        let plan = Plan::read(&self.experiment.clone().unwrap_or_else(default)).map_err(Failure::input)?;
+        Ok(if self.quick { plan.into_quick() } else { plan })
+    }
+
+    /// The folder of a plan's results.
+    pub fn folder(&self, plan: &Plan) -> PathBuf {
+        self.results.join(&plan.name)
+    }
+}
+
+/// The plan that `sweep` runs where none is named.
+const DEFAULT: &str = "sweep";
+
+pub fn run(arguments: &Arguments) -> Outcome {
+    if let Some(Part::Merge(place)) = &arguments.part {
+        let plan = place.plan(DEFAULT)?;
+        return merge(&plan, &place.folder(&plan));
+    }
+    let plan = arguments.place.plan(DEFAULT)?;
+    let folder = arguments.place.folder(&plan);
+    if plan.batteries.is_empty() {
+        run_cells(&plan, &folder, &arguments.how, arguments.shard, |_| true)
+    } else {
+        battery::run(&plan, &folder, &arguments.of_battery())
+    }
+}
+
+/// Runs those of a plan's cells that are wanted and have no row, or the part of them that a shard has; then, but for a
+/// shard, draws charts and page from all rows there are.
+pub fn run_cells(
+    plan: &Plan,
+    folder: &Path,
+    how: &How,
+    shard: Option<Shard>,
+    is_wanted: impl Fn(&Cell) -> bool,
+) -> Outcome {
+    let all = plan.cells().map_err(Failure::input)?;
+    let cells: Vec<PlannedCell> = all.iter().filter(|planned| is_wanted(&planned.cell)).cloned().collect();
+    for planned in &cells {
+        runner::mesher(&planned.cell)
+            .map_err(|problem| Failure::Input(format!("{}: {}: {problem}", plan.file.display(), planned.key)))?;
+    }
+    let store = Store::new(None, false);
+    if how.dry_run {
+        return dry_run(
+            plan,
+            &cells,
+            &tasks(plan, &cells, &store, how.threads())?,
+            how.threads(),
+        );
+    }
+    let provenance = machine::provenance();
+    let mut journal = open(&folder.join(file_name(record::ROWS, shard)))?;
+    start_anew_if_needed(how.fresh, &all, &mut journal, &provenance)?;
+    how.run_pending(plan, &cells, shard, &store, &mut journal, &provenance)?;
+    journal
+        .settle(all.iter().map(|planned| planned.key.as_str()))
+        .map_err(Failure::input)?;
+    if let Some(shard) = shard {
+        say_done(shard);
+        return Ok(());
+    }
+    let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
+    finish(plan, folder, &rows)
+}
+
+/// Opens a file of rows or chunks, and tells what a kill left in it.
+pub fn open<R: Record>(file: &Path) -> Result<Journal<R>, Failure> {
+    let journal = Journal::open(file).map_err(Failure::input)?;
+    if journal.cut_off > 0 {
+        say_aside(format_args!(
+            "{}: cut off {} bytes of an unfinished last line",
+            file.display(),
+            journal.cut_off
+        ));
+    }
+    Ok(journal)
+}
+
+impl Arguments {
+    fn of_battery(&self) -> battery::Run {
+        battery::Run {
+            fresh: self.how.fresh,
+            dry_run: self.how.dry_run,
+            shard: self.shard,
+            threads: self.how.threads(),
+        }
+    }
+}
+
+impl How {
+    fn threads(&self) -> usize {
+        self.threads
+            .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
+            .max(1)
+    }
+
+    fn run_pending(
+        &self,
+        plan: &Plan,
+        cells: &[PlannedCell],
+        shard: Option<Shard>,
+        store: &Store,
+        journal: &mut Journal,
+        provenance: &Provenance,
+    ) -> Outcome {
+        let done = cells.iter().filter(|planned| runner::is_done(planned, journal)).count();
+        if done == cells.len() {
+            say(format_args!("all {done} cells have rows; --fresh measures them anew"));
+            return Ok(());
+        }
+        let mut tasks = tasks(plan, cells, store, self.threads())?;
+        if let Some(shard) = shard {
+            let all = tasks.into_iter().enumerate();
+            tasks = all.filter(|(at, _)| shard.has(*at)).map(|(_, task)| task).collect();
+        }
+        for task in &mut tasks {
+            task.units
+                .retain(|unit| !unit.cells.iter().all(|&cell| runner::is_done(&cells[cell], journal)));
+        }
+        tasks.retain(|task| !task.units.is_empty());
+        let units = || tasks.iter().flat_map(|task| &task.units);
+        let pending = units().map(|unit| unit.cells.len()).sum();
+        say(format_args!("{}: {pending} cells to run, {done} are done", plan.name));
+        let available = || {
+            let free = machine::available_memory_bytes().unwrap_or(UNKNOWN_MEMORY);
+            (free as f64 * MEMORY_SHARE) as u64
+        };
+        let progress = Progress::new(pending, units().map(|unit| runner::weight(unit, cells)).sum());
+        let sweep = Sweep {
+            cells,
+            store,
+            provenance,
+            threads: self.threads(),
+            memory_bytes: self.max_memory.unwrap_or_else(available),
+            watch: &progress,
+        };
+        let ended = sweep.run(&tasks, journal);
+        progress.finish();
+        ended.map_err(Failure::input)
+    }
+}
+
+/// Rows are resumed where an unfinished run on a machine like this one left them. Rows of another machine, or a whole
+/// set of rows by another version of the code, are kept under another name.
+fn start_anew_if_needed(fresh: bool, cells: &[PlannedCell], journal: &mut Journal, provenance: &Provenance) -> Outcome {
+    let reports = || journal.lines().iter().filter_map(|line| line.row.report.as_ref());
+    let complete = cells.iter().all(|planned| runner::is_done(planned, journal));
+    let elsewhere = reports().any(|report| !machine::same_machine(&report.provenance, provenance));
+    let other_code = reports().any(|report| report.provenance.commit != provenance.commit);
+    let reason = if fresh {
+        "--fresh"
+    } else if elsewhere {
+        "they were made on another machine"
+    } else if complete && other_code {
+        "they are complete and were made by another commit"
+    } else {
+        return Ok(());
+    };
+    if let Some(kept) = journal.set_aside(&provenance.date).map_err(Failure::input)? {
+        say(format_args!(
+            "starting anew ({reason}); the rows that were there are now {}",
+            kept.display()
+        ));
+    }
+    Ok(())
+}
+
+fn tasks(plan: &Plan, cells: &[PlannedCell], store: &Store, threads: usize) -> Result<Vec<Task>, Failure> {
+    store.survey(cells.iter().map(|planned| &planned.cell), threads);
+    work::tasks(cells, |cell| store.outlook(cell), measure::complete)
+        .map_err(|error| Failure::Input(format!("{}: {error}", plan.file.display())))
+}
+
+fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -> Outcome {
+    let (mut seconds, mut meshes, mut skipped) = (0.0, 0, 0);
+    for unit in tasks.iter().flat_map(|task| &task.units) {
+        let first = &cells[unit.cells[0]];
+        let weight = runner::weight(unit, cells);
+        let cores = if first.cell.timed { 1 } else { threads };
+        seconds += weight * SECONDS_PER_TRIANGLE / cores as f64;
+        let above = unit.guessed_triangles > first.budget.triangles;
+        (meshes, skipped) = (
+            meshes + usize::from(!above),
+            skipped + if above { unit.cells.len() } else { 0 },
+        );
+        for &cell in &unit.cells {
+            let verdict = if above { ", probably skipped" } else { "" };
+            say(format_args!(
+                "{}  about {:.0} triangles{verdict}",
+                cells[cell].key, unit.guessed_triangles
+            ));
+        }
+    }
+    say(format_args!(
+        "{}: {} cells, {meshes} meshes, {skipped} cells probably skipped",
+        plan.name,
+        cells.len()
+    ));
+    say(format_args!(
+        "about {:.0} s with {threads} side by side; the guess knows the spacing before limiting only",
+        seconds
+    ));
+    Ok(())
+}
+
+fn merge(plan: &Plan, folder: &Path) -> Outcome {
+    if plan.batteries.is_empty() {
+        let cells = plan.cells().map_err(Failure::input)?;
+        let keys: Vec<String> = cells.into_iter().map(|planned| planned.key).collect();
+        finish(plan, folder, &join(folder, record::ROWS, &keys)?)
+    } else {
+        battery::finish(plan, folder, &join(folder, CHUNKS, &battery::keys(plan))?)
+    }
+}
+
+/// Charts, page and verdict, once every cell has a row.
+fn finish(plan: &Plan, folder: &Path, rows: &[Row]) -> Outcome {
+    let copy = folder.join("plan.toml");
+    write_whole(&copy, plan.text.as_bytes()).map_err(|cause| Failure::Input(format!("{}: {cause}", copy.display())))?;
+    if !anything_measured(rows) {
+        let reason = rows
+            .iter()
+            .find_map(|row| row.reason.as_deref())
+            .unwrap_or("no cell was run");
+        return Err(Failure::NothingMeasured(format!("nothing could be measured: {reason}")));
+    }
+    super::report::write(folder)?;
+    tell(&findings(&plan.expect, rows))
+}
+
+/// Tells what was expected and what came out.
+pub fn tell(findings: &[Finding]) -> Outcome {
+    for finding in findings {
+        say(format_args!(
+            "{} {}: {}",
+            if finding.holds { "held:  " } else { "BROKEN:" },
+            finding.expected,
+            finding.found
+        ));
+    }
+    let broken = findings.iter().filter(|finding| !finding.holds).count();
+    if broken > 0 {
+        return Err(Failure::Broken(format!(
+            "{broken} of {} expectations broke; they are named above",
+            findings.len()
+        )));
+    }
+    Ok(())
+}

@@ -1,0 +1,189 @@
+//! Meshes by biting with corners bitten like any other, beside those with corners cut off: the group `corners`.
+
+use super::findings::of_group;
+use super::markdown::{degrees, number, parameter, table};
+use super::meshes::{Picture, file_name, made_again};
+use crate::geometry::DVec2;
+use crate::mesh::Mesh;
+use crate::suite::analysis::summary::measured;
+use crate::suite::charts::{ChartError, side_by_side, window};
+use crate::suite::rows::numbers::{first_seen, quantile};
+use crate::suite::rows::record::{Report, Row};
+use crate::suite::run::prepare::Store;
+use std::path::Path;
+
+/// Two rows that differ in what is done about corners.
+struct Pair<'a> {
+    /// To the paper's letter, and with corners cut off.
+    rows: [&'a Row; 2],
+    reports: [&'a Report; 2],
+}
+
+fn is_bitten(row: &Row) -> bool {
+    row.cell.params.get("corners").and_then(|value| value.as_str()) == Some("bite")
+}
+
+fn pairs(rows: &[Row]) -> Vec<Pair<'_>> {
+    let own = of_group(rows, "corners");
+    let asked = |row: &Row| {
+        (
+            row.cell.domain.clone(),
+            row.cell.spacing.clone(),
+            [row.cell.t, row.cell.c_b],
+        )
+    };
+    let mut pairs = Vec::new();
+    for row in own.iter().copied().filter(|row| is_bitten(row)) {
+        let partner = own
+            .iter()
+            .copied()
+            .find(|other| !is_bitten(other) && asked(other) == asked(row));
+        if let Some((other, bitten, cut)) = partner.and_then(|other| Some((other, measured(row)?, measured(other)?))) {
+            pairs.push(Pair {
+                rows: [row, other],
+                reports: [bitten, cut],
+            });
+        }
+    }
+    pairs
+}
+
+/// The smallest angle beyond corners, in degrees.
+fn free(report: &Report) -> f64 {
+    report.statistics.min_angle_free_deg.unwrap_or(60.0)
+}
+
+fn triangles(pair: &Pair) -> f64 {
+    pair.reports[1].statistics.triangles as f64 / pair.reports[0].statistics.triangles as f64
+}
+
+/// What cutting corners off does, mesh by mesh.
+pub(super) fn corners(rows: &[Row]) -> String {
+    let pairs = pairs(rows);
+    if pairs.is_empty() {
+        return String::new();
+    }
+    let line = |pair: &Pair| {
+        let [bitten, cut] = pair.reports;
+        let each = |of: &dyn Fn(&Report) -> String| [of(bitten), of(cut)];
+        let under = |report: &Report| number(100.0 * report.statistics.share_under(20));
+        let head = [
+            bitten.domain.clone(),
+            parameter(bitten.c_b),
+            degrees(bitten.smallest_input_angle_deg),
+            cut.counts
+                .get("corners_cut")
+                .map_or("–".into(), |count| format!("{count:.0}")),
+            bitten.statistics.triangles.to_string(),
+            number(triangles(pair)),
+        ];
+        let angles = each(&|report| degrees(free(report)));
+        let low = each(&|report| degrees(report.statistics.p05_min_angle_deg));
+        head.into_iter().chain(angles).chain(low).chain(each(&under)).collect()
+    };
+    let head = [
+        "domain",
+        "c_b",
+        "smallest input angle",
+        "corners cut off",
+        "triangles, bitten",
+        "times as many, cut",
+        "smallest angle beyond corners, bitten",
+        "cut",
+        "5th percentile, bitten",
+        "cut",
+        "% under 20°, bitten",
+        "cut",
+    ];
+    let lines: Vec<Vec<String>> = pairs.iter().map(line).collect();
+    "Input angles under 90°, which the paper excludes, bitten like any other (`corners=bite`, `head_on=leave`: the paper to the \
+     letter), and cut off before biting and given back (the default).\n\n"
+        .to_string()
+        + &table(&head, &lines)
+}
+
+/// The section in a line.
+pub(super) fn corner_finding(rows: &[Row]) -> Option<String> {
+    let pairs = pairs(rows);
+    let spread = |of: &dyn Fn(&Pair) -> f64| {
+        let values: Vec<f64> = pairs.iter().map(of).collect();
+        Some((quantile(values.clone(), 0.0)?, quantile(values, 0.5)?))
+    };
+    let (bitten, cut) = (
+        spread(&|pair| free(pair.reports[0]))?,
+        spread(&|pair| free(pair.reports[1]))?,
+    );
+    let (_, more) = spread(&triangles)?;
+    Some(format!(
+        "**Corners.** Beyond input angles under 60°, the smallest angle of {} meshes is {} (median {}) where corners are bitten \
+         like any other, and {} (median {}) where they are cut off, with {} times the triangles (median).",
+        pairs.len(),
+        degrees(bitten.0),
+        degrees(bitten.1),
+        degrees(cut.0),
+        degrees(cut.1),
+        number(more)
+    ))
+}
+
+/// How much of a mesh the close look shows: so many times the longest edge of its worst triangle.
+const WINDOW_EDGES: f64 = 8.0;
+
+/// Draws, for each domain, the pair of meshes with the fewest triangles, with a close look at the worst triangle that biting
+/// leaves beyond corners.
+pub(super) fn draw(store: &Store, rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartError> {
+    let pairs = pairs(rows);
+    let mut pictures = Vec::new();
+    for domain in first_seen(pairs.iter().map(|pair| pair.reports[0].domain.as_str())) {
+        let own = pairs.iter().filter(|pair| pair.reports[0].domain == domain);
+        let Some(pair) = own.min_by_key(|pair| pair.reports[0].statistics.triangles) else {
+            continue;
+        };
+        let made = [0, 1].map(|k| made_again(store, pair.rows[k], pair.reports[k]));
+        let [Some(bitten), Some(cut)] = made else {
+            continue;
+        };
+        let Some((place, edge)) = worst(&bitten, pair.reports[0]) else {
+            continue;
+        };
+        let told = |what: &str, report: &Report| {
+            format!(
+                "{what}: {} triangles, from {}",
+                report.statistics.triangles,
+                degrees(free(report))
+            )
+        };
+        let titles = [told("bitten", pair.reports[0]), told("cut off", pair.reports[1])];
+        let name = format!("corners-{}", file_name(domain));
+        let meshes = [(titles[0].as_str(), &bitten), (titles[1].as_str(), &cut)];
+        side_by_side(
+            meshes,
+            window(place, WINDOW_EDGES * edge),
+            &folder.join(format!("{name}.png")),
+        )?;
+        let report = pair.reports[0];
+        pictures.push(Picture {
+            title: format!("Meshes of {domain} before and after corners are cut off"),
+            caption: format!(
+                "`{domain}` with `{}`, t = {}, c_b = {}: left corners {}, right {} beyond input angles under 60°; below, the \
+                 place of the worst triangle on the left, and how triangles spread over smallest angles",
+                report.spacing,
+                parameter(report.t),
+                parameter(report.c_b),
+                titles[0],
+                titles[1]
+            ),
+            name,
+        });
+    }
+    Ok(pictures)
+}
+
+/// Where the smallest angle beyond corners is, and the longest edge of that triangle.
+fn worst(mesh: &Mesh, report: &Report) -> Option<(DVec2, f64)> {
+    let at = DVec2::from(report.certificate.check("min-angle")?.at?);
+    let centroid = |t: usize| mesh.corners(t).iter().sum::<DVec2>() / 3.0;
+    let near = |a: &usize, b: &usize| centroid(*a).distance(at).total_cmp(&centroid(*b).distance(at));
+    let [a, b, c] = mesh.corners((0..mesh.triangles.len()).min_by(near)?);
+    Some((at, a.distance(b).max(b.distance(c)).max(c.distance(a))))
+}

@@ -1,0 +1,159 @@
+//! A picture of a mesh of each domain, made again from its row.
+
+use super::markdown::{degrees, parameter};
+use crate::mesh::Mesh;
+use crate::meshers::{Budget, Request};
+use crate::suite::analysis::contest::at_equal_size;
+use crate::suite::analysis::summary::measured;
+use crate::suite::charts::{ChartError, draw_mesh, draw_mesh_sheet};
+use crate::suite::rows::numbers::first_seen;
+use crate::suite::rows::record::{Report, Row};
+use crate::suite::run::measure::{fingerprint, run};
+use crate::suite::run::prepare::Store;
+use crate::suite::run::runner::mesher;
+use std::path::Path;
+
+/// A picture of the page.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Picture {
+    /// Its file is `charts/NAME.png`.
+    pub(super) name: String,
+    /// What it shows, for who cannot see it.
+    pub(super) title: String,
+    /// The same with numbers.
+    pub(super) caption: String,
+}
+
+/// What is shown: where triangles can be seen, near this t and c_b.
+const SHOWN_T: f64 = 0.25;
+const SHOWN_C_B: f64 = 0.5;
+/// The domains of the README's picture.
+const SHEET: [&str; 4] = ["plate-hole", "gear", "naca0012", "iceland"];
+/// A picture of more triangles shows colours only, and takes its time.
+const MOST_TRIANGLES: usize = 60_000;
+
+/// Triangles of a mesh on the sheet of meshers: enough to show what they do, few enough to be seen.
+const SHEET_TRIANGLES: f64 = 900.0;
+
+/// Draws one domain meshed by every mesher, and a mesh of each domain of the grid. A row says enough to make its mesh again, and its fingerprint whether that
+/// came out the same; where it did not, on another machine or by a later version, there is no picture.
+pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartError> {
+    let store = Store::new(None, false);
+    let mut pictures: Vec<Picture> = meshers(&store, rows, folder)?.into_iter().collect();
+    pictures.extend(super::corners::draw(&store, rows, folder)?);
+    let mut sheet: Vec<(String, Mesh)> = Vec::new();
+    for (row, report) in chosen(rows) {
+        let Some(mesh) = made_again(&store, row, report) else {
+            continue;
+        };
+        let name = format!("mesh-{}", file_name(&row.cell.domain));
+        draw_mesh(&mesh, &folder.join(format!("{name}.png")))?;
+        pictures.push(Picture {
+            name,
+            title: format!("Mesh of {}", report.domain),
+            caption: format!("`{}` with {}", report.domain, told(report)),
+        });
+        if SHEET.contains(&row.cell.domain.as_str()) {
+            sheet.push((row.cell.domain.clone(), mesh));
+        }
+    }
+    if sheet.len() == SHEET.len() {
+        let titled: Vec<_> = sheet.iter().map(|(title, mesh)| (title.as_str(), mesh)).collect();
+        draw_mesh_sheet(&titled, &folder.join("four-meshes.png"))?;
+    }
+    Ok(pictures)
+}
+
+/// A domain's name as part of a file's.
+pub(super) fn file_name(domain: &str) -> String {
+    domain
+        .chars()
+        .map(|c| if c.is_alphanumeric() { c } else { '-' })
+        .collect()
+}
+
+/// One measured row of each domain: of the grid's first spacing, nearest to what is to be shown.
+fn chosen(rows: &[Row]) -> Vec<(&Row, &Report)> {
+    let grids = super::findings::grids(rows);
+    let Some((_, grid)) = grids.first() else {
+        return Vec::new();
+    };
+    let domains = first_seen(grid.rows.iter().map(|row| row.cell.domain.as_str()));
+    let far = |row: &Row| (row.cell.t - SHOWN_T).abs() + (row.cell.c_b - SHOWN_C_B).abs();
+    let best = |domain: &&str| {
+        let own = grid.rows.iter().filter(|row| row.cell.domain == **domain);
+        let drawn = own.filter_map(|row| Some((*row, measured(row)?)));
+        let drawn = drawn.filter(|(_, report)| report.statistics.triangles <= MOST_TRIANGLES);
+        drawn.min_by(|a, b| far(a.0).total_cmp(&far(b.0)))
+    };
+    domains.iter().filter_map(best).collect()
+}
+
+/// One domain meshed by the defaults of every mesher, for the same edge length.
+fn meshers(store: &Store, rows: &[Row], folder: &Path) -> Result<Option<Picture>, ChartError> {
+    let contest = at_equal_size(rows);
+    let leads = contest.leads();
+    let common = contest.common(&leads);
+    let off = |task: &usize| {
+        let triangles = contest.median(leads[0], &[*task], |report| Some(report.statistics.triangles as f64));
+        (triangles.unwrap_or(f64::MAX) / SHEET_TRIANGLES).ln().abs()
+    };
+    let known = |task: &&usize| SHEET.contains(&contest.tasks[**task].domain.as_str());
+    let shown = common.iter().filter(known).min_by(|a, b| off(a).total_cmp(&off(b)));
+    let Some(&task) = shown.filter(|_| contest.has_rivals()) else {
+        return Ok(None);
+    };
+    let made = |k: &usize| {
+        let (row, report) = (contest.row(*k, task)?, contest.report(*k, task)?);
+        Some((
+            contest.methods[*k].label.clone(),
+            made_again(store, row, report)?,
+            told(report),
+        ))
+    };
+    let Some(made) = leads.iter().map(made).collect::<Option<Vec<_>>>() else {
+        return Ok(None);
+    };
+    let titled: Vec<_> = made.iter().map(|(label, mesh, _)| (label.as_str(), mesh)).collect();
+    let name = "meshers-side-by-side".to_string();
+    draw_mesh_sheet(&titled, &folder.join(format!("{name}.png")))?;
+    let each: Vec<String> = made
+        .iter()
+        .map(|(label, _, told)| format!("{label} with {told}"))
+        .collect();
+    Ok(Some(Picture {
+        name,
+        title: format!("{} meshed by every mesher", contest.tasks[task].domain),
+        caption: format!("`{}` by {}", contest.tasks[task].domain, each.join("; ")),
+    }))
+}
+
+/// What was asked for, and what came out.
+fn told(report: &Report) -> String {
+    format!(
+        "`{}`, t = {}, c_b = {}: {} triangles, smallest angle {}, mean smallest angle {}",
+        report.spacing,
+        parameter(report.t),
+        parameter(report.c_b),
+        report.statistics.triangles,
+        degrees(report.statistics.min_angle_deg),
+        degrees(report.statistics.mean_min_angle_deg)
+    )
+}
+
+/// The mesh of a row, if its domain, spacing and mesher are still there and it comes out the same.
+pub(super) fn made_again(store: &Store, row: &Row, report: &Report) -> Option<Mesh> {
+    let prepared = store.prepare_for_t(&row.cell).ok()?;
+    let (_, mesher) = mesher(&row.cell).ok()?;
+    let request = Request {
+        c_b: report.c_b,
+        seed: row.cell.seed,
+        threads: 1,
+        budget: Budget {
+            max_vertices: Some(4 * MOST_TRIANGLES),
+            ..Budget::default()
+        },
+    };
+    let mesh = run(&prepared, &*mesher, &request).ok()?.mesh;
+    (fingerprint(&mesh) == report.fingerprint).then_some(mesh)
+}

@@ -1,0 +1,270 @@
+//! The part of the page that sets meshers side by side.
+
+use super::findings::of_group;
+use super::markdown::{degrees, number, parameter, table};
+use crate::quality::Percentiles;
+use crate::suite::analysis::contest::{Asked, Contest, at_equal_count, at_equal_size, seconds_per_triangle};
+use crate::suite::analysis::series::TimeSeries;
+use crate::suite::analysis::summary::measured;
+use crate::suite::rows::numbers::{distinct, first_seen, quantile};
+use crate::suite::rows::record::{Outcome, Report, Row};
+use crate::suite::run::tune::{NEAR, is_near};
+
+/// The timed rows, where several methods were timed on the same tasks.
+pub(super) fn timed(rows: &[Row]) -> Contest<'_> {
+    Contest::of(of_group(rows, "time"))
+}
+
+/// Tables at equal edge length and at equal count, and of time; empty where one method ran alone.
+pub(super) fn rivals(rows: &[Row]) -> String {
+    let (size, count, time) = (at_equal_size(rows), at_equal_count(rows), timed(rows));
+    let mut text = String::new();
+    if size.has_rivals() {
+        text += &format!(
+            "### At equal edge length\n\nEvery mesher is asked for edges of length s = c_b f, on {}. {}\n\n",
+            tasks_told(&size),
+            MEDIANS
+        );
+        text += &method_table(&size, &time);
+        text += &by_t_and_c_b(&size);
+    }
+    if count.has_rivals() {
+        text += &format!(
+            "### At equal triangle count\n\nThe spacing stays, c_b is scaled until a mesh has as many triangles as asked \
+             for, within {:.0} %, on {}. {} {MEDIANS}\n\n",
+            100.0 * NEAR,
+            tasks_told(&count),
+            misses(&count)
+        );
+        text += &method_table(&count, &time);
+    }
+    if time.has_rivals() {
+        text += &format!("### Time\n\n{}", time_table(&time));
+    }
+    text
+}
+
+const MEDIANS: &str = "Numbers are medians over the tasks that every mesher in the table measured; who has not measured \
+                       all is counted in the first columns.";
+
+/// What the tasks of a contest are.
+fn tasks_told(contest: &Contest) -> String {
+    let domains = first_seen(contest.tasks.iter().map(|asked| asked.domain.as_str())).len();
+    let values = |value: fn(&Asked) -> f64| {
+        let all = distinct(contest.tasks.iter().map(value));
+        all.into_iter().map(parameter).collect::<Vec<_>>().join(", ")
+    };
+    let counts = distinct(
+        contest
+            .tasks
+            .iter()
+            .filter_map(|asked| asked.triangles)
+            .map(|n| n as f64),
+    );
+    let counts: Vec<String> = counts.into_iter().map(parameter).collect();
+    let counts = if counts.is_empty() {
+        String::new()
+    } else {
+        format!(", for {} triangles", counts.join(" or "))
+    };
+    let all: Vec<usize> = (0..contest.tasks.len()).collect();
+    let spacings = contest.by_spacing(&all).into_iter().map(|(title, tasks)| {
+        let specs = first_seen(tasks.iter().map(|task| contest.tasks[*task].spacing.as_str())).join("`, `");
+        let count = tasks.len();
+        if specs == title {
+            format!("{count} with `{title}`")
+        } else {
+            format!("{count} with {title}, that is `{specs}`")
+        }
+    });
+    format!(
+        "{} tasks: {} domains, t = {}, c_b = {}{counts}; {}",
+        contest.tasks.len(),
+        domains,
+        values(|asked| asked.t),
+        values(|asked| asked.c_b),
+        spacings.collect::<Vec<_>>().join("; ")
+    )
+}
+
+/// How many meshes missed the count asked for, and by how much.
+fn misses(contest: &Contest) -> String {
+    let all = contest.all().into_iter().flat_map(|k| contest.rows(k));
+    let reached = all.filter_map(|row| Some((row.cell.triangles?, measured(row)?.statistics.triangles as u64)));
+    let reached: Vec<(u64, u64)> = reached.collect();
+    let off: Vec<f64> = reached
+        .iter()
+        .filter(|(wanted, count)| !is_near(*count, *wanted))
+        .map(|(wanted, count)| (*count as f64 / *wanted as f64 - 1.0).abs())
+        .collect();
+    match quantile(off.clone(), 1.0) {
+        None => format!("All {} meshes came so near.", reached.len()),
+        Some(most) => format!(
+            "{} of {} meshes did not come so near, the farthest being {} % off.",
+            off.len(),
+            reached.len(),
+            number(100.0 * most)
+        ),
+    }
+}
+
+/// The columns of [`method_table`].
+const METHOD_HEAD: [&str; 17] = [
+    "mesher",
+    "measured",
+    "skipped",
+    "declined",
+    "failed",
+    "triangles",
+    "size efficiency",
+    "smallest angle",
+    "least of all",
+    "mean",
+    "5th percentile",
+    "under 20°",
+    "under 30°",
+    "β",
+    "edge/s 5, 50, 95 %",
+    "µs per triangle",
+    "growth",
+];
+
+/// A line for each method.
+fn method_table(contest: &Contest, time: &Contest) -> String {
+    let common = contest.common(&contest.all());
+    let line = |k: usize| {
+        let of = |value: fn(&Report) -> Option<f64>| contest.median(k, &common, value);
+        let asked = contest.rows(k).count();
+        let count = |outcome| match contest.count(k, outcome) {
+            0 => "0".to_string(),
+            some => format!("{some} of {asked}"),
+        };
+        let percent = |degrees: usize| {
+            let share = contest.median(k, &common, |report| {
+                Some(100.0 * report.statistics.share_under(degrees))
+            });
+            share.map_or("–".into(), |share| format!("{} %", number(share)))
+        };
+        let edge = |value: fn(&Percentiles) -> f64| {
+            contest.median(k, &common, |report| {
+                report.statistics.edge_over_size.as_ref().map(value)
+            })
+        };
+        let edges = [edge(|p| p.p05), edge(|p| p.p50), edge(|p| p.p95)]
+            .map(number)
+            .join(", ");
+        let smallest = contest.values(k, &common, |report| report.statistics.min_angle_free_deg);
+        let label = &contest.methods[k].label;
+        let timed = time.methods.iter().position(|method| method.label == *label);
+        let growth = timed.and_then(|k| Some(TimeSeries::of_method(time, k).fit()?.slope));
+        let mut cells = vec![label.clone()];
+        cells.extend([Outcome::Measured, Outcome::Skipped, Outcome::Declined, Outcome::Failed].map(count));
+        cells.extend([
+            number(of(|report| Some(report.statistics.triangles as f64))),
+            number(of(|report| Some(report.size_efficiency))),
+            degrees(of(|report| report.statistics.min_angle_free_deg)),
+            degrees(quantile(smallest, 0.0)),
+            degrees(of(|report| Some(report.statistics.mean_min_angle_deg))),
+            degrees(of(|report| Some(report.statistics.p05_min_angle_deg))),
+            percent(20),
+            percent(30),
+            number(of(|report| report.statistics.beta)),
+            edges,
+            number(of(|report| seconds_per_triangle(report).map(|seconds| 1e6 * seconds))),
+            number(growth),
+        ]);
+        cells
+    };
+    let lines: Vec<_> = contest.all().into_iter().map(line).collect();
+    let alone = contest
+        .all()
+        .into_iter()
+        .flat_map(|k| contest.rows(k))
+        .all(|row| row.cell.timed);
+    let caution = if alone {
+        ""
+    } else {
+        " These cells ran beside one another, so their times are rough."
+    };
+    format!(
+        "{} of {} tasks were measured by all. Smallest angles leave out triangles at input angles under 60°; growth is the \
+         slope of log seconds against log triangles, from cells timed alone.{caution}\n\n",
+        common.len(),
+        contest.tasks.len()
+    ) + &table(&METHOD_HEAD, &lines)
+}
+
+/// Smallest and mean angle and size efficiency for each t and c_b, where there are several.
+fn by_t_and_c_b(contest: &Contest) -> String {
+    let ts = distinct(contest.tasks.iter().map(|asked| asked.t));
+    let c_bs = distinct(contest.tasks.iter().map(|asked| asked.c_b));
+    if ts.len() * c_bs.len() < 4 || contest.most_t() < 2 {
+        return String::new();
+    }
+    let leads = contest.leads();
+    let mut head = vec!["t".to_string(), "c_b".to_string(), "tasks".to_string()];
+    head.extend(leads.iter().map(|k| contest.methods[*k].label.clone()));
+    let line = |t: f64, c_b: f64| {
+        let here = contest.only(|asked| asked.t == t && asked.c_b == c_b);
+        let common = here.common(&leads);
+        let three = |k: &usize| {
+            let smallest = here.median(*k, &common, |report| report.statistics.min_angle_free_deg);
+            let mean = here.median(*k, &common, |report| Some(report.statistics.mean_min_angle_deg));
+            let efficiency = here.median(*k, &common, |report| Some(report.size_efficiency));
+            format!("{} · {} · {}", degrees(smallest), degrees(mean), number(efficiency))
+        };
+        let count = format!("{} of {}", common.len(), here.tasks.len());
+        let own = leads.iter().map(three);
+        [parameter(t), parameter(c_b), count]
+            .into_iter()
+            .chain(own)
+            .collect::<Vec<_>>()
+    };
+    let lines: Vec<_> = ts.iter().flat_map(|t| c_bs.iter().map(|c_b| line(*t, *c_b))).collect();
+    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    "Smallest angle · mean smallest angle · size efficiency, medians over the tasks that all measured:\n\n".to_string()
+        + &table(&head, &lines)
+}
+
+/// Time a triangle at the fewest and the most triangles, growth, and ratios to the first method on the same tasks.
+fn time_table(time: &Contest) -> String {
+    let head = [
+        "mesher",
+        "measured",
+        "triangles",
+        "µs per triangle, fewest",
+        "most",
+        "growth",
+        "seconds over the first's",
+    ];
+    let line = |k: usize| {
+        let points = TimeSeries::of_method(time, k).points;
+        let by_count = |least: bool| {
+            let order = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
+            let end = if least {
+                points.iter().min_by(order)
+            } else {
+                points.iter().max_by(order)
+            };
+            end.copied()
+        };
+        let ends = [by_count(true), by_count(false)];
+        let each = ends.map(|end| number(end.map(|(triangles, seconds)| 1e6 * seconds / triangles)));
+        let ratios = time.pairs([0, k], |report| Some(report.seconds.total));
+        let ratios: Vec<f64> = ratios.iter().map(|(_, [first, own])| own / first).collect();
+        vec![
+            time.methods[k].label.clone(),
+            format!("{} of {}", points.len(), time.rows(k).count()),
+            ends.map(|end| number(end.map(|end| end.0))).join(" to "),
+            each[0].clone(),
+            each[1].clone(),
+            number(TimeSeries::of_method(time, k).fit().map(|line| line.slope)),
+            number(quantile(ratios, 0.5)),
+        ]
+    };
+    let lines: Vec<_> = time.all().into_iter().map(line).collect();
+    "Cells run alone and repeated; each time is the median of its repeats. Growth is the slope of log seconds against log \
+     triangles; the last column is the median over the tasks that both measured.\n\n"
+        .to_string()
+        + &table(&head, &lines)
+}

@@ -1,0 +1,205 @@
+//! Who bites whom: the paper's rule beside that of the later point, at equal t and at equal guaranteed angle.
+//!
+//! With the rule of the later point the guaranteed angle is asin((1 − t) / 2), the paper's asin(1/2 − t) at half the t. So a
+//! mesh by the paper's rule is set beside three by the other: of the same t and c_b; of twice the t at the same c_b, where f may
+//! grow twice as fast; and of twice t and c_b, where f stays and circles are twice as large.
+
+use super::findings::of_group;
+use super::markdown::{degrees, number, parameter, table};
+use crate::quality::min_angle_bound_deg;
+use crate::spacing::Rule;
+use crate::suite::analysis::summary::{measured, parameter as named};
+use crate::suite::rows::numbers::{distinct, first_seen, median};
+use crate::suite::rows::record::{Report, Row};
+
+/// How a mesh by the rule of the later point relates to one by the paper's.
+struct Way {
+    title: &'static str,
+    t_times: f64,
+    c_b_times: f64,
+}
+
+const WAYS: [Way; 3] = [
+    Way {
+        title: "same t, same c_b",
+        t_times: 1.0,
+        c_b_times: 1.0,
+    },
+    Way {
+        title: "same guaranteed angle, same c_b (twice α)",
+        t_times: 2.0,
+        c_b_times: 1.0,
+    },
+    Way {
+        title: "same guaranteed angle, same α (twice c_b)",
+        t_times: 2.0,
+        c_b_times: 2.0,
+    },
+];
+
+/// Meshes by either rule of the same domain, spacing and order.
+struct Pairs<'a> {
+    reports: Vec<[&'a Report; 2]>,
+    asked: usize,
+}
+
+impl<'a> Pairs<'a> {
+    /// Of those rows by the paper's rule that `wanted` admits, with those that stand in that way to them.
+    fn of(rows: &[&'a Row], way: &Way, wanted: impl Fn(&Row) -> bool) -> Self {
+        let mut pairs = Self {
+            reports: Vec::new(),
+            asked: 0,
+        };
+        for row in rows.iter().filter(|row| !is_later(row) && wanted(row)) {
+            let other = rows.iter().find(|other| is_later(other) && is_partner(row, other, way));
+            pairs.asked += usize::from(other.is_some());
+            if let Some(two) = other.and_then(|other| Some([measured(row)?, measured(other)?])) {
+                pairs.reports.push(two);
+            }
+        }
+        pairs
+    }
+
+    /// Medians of a value, by the paper's rule and by the other.
+    fn medians(&self, value: impl Fn(&Report) -> Option<f64>) -> [Option<f64>; 2] {
+        [0, 1].map(|k| median(self.reports.iter().filter_map(|two| value(two[k])).collect()))
+    }
+
+    fn least_angle(&self, k: usize) -> Option<f64> {
+        let angles = self
+            .reports
+            .iter()
+            .filter_map(|two| two[k].statistics.min_angle_free_deg);
+        angles.reduce(f64::min)
+    }
+
+    /// The median over pairs of the other's value over the paper's.
+    fn ratio(&self, value: impl Fn(&Report) -> f64) -> Option<f64> {
+        median(self.reports.iter().map(|two| value(two[1]) / value(two[0])).collect())
+    }
+
+    fn triangles(&self) -> Option<f64> {
+        self.ratio(|report| report.statistics.triangles as f64)
+    }
+
+    fn seconds(&self) -> Option<f64> {
+        self.ratio(|report| report.seconds.total)
+    }
+}
+
+fn is_later(row: &Row) -> bool {
+    named(row, "rule") == Some("later")
+}
+
+fn is_partner(row: &Row, other: &Row, way: &Way) -> bool {
+    let (own, its) = (&row.cell, &other.cell);
+    let task = |row: &Row| {
+        (
+            row.cell.domain.clone(),
+            row.cell.spacing.clone(),
+            row.cell.seed,
+            row.cell.lfs_cap,
+        )
+    };
+    let near = |value: f64, expected: f64| (value - expected).abs() <= 1e-9 * expected;
+    task(row) == task(other)
+        && named(row, "order") == named(other, "order")
+        && near(its.t, way.t_times * own.t)
+        && near(its.c_b, way.c_b_times * own.c_b)
+}
+
+/// A line for each way, over all that were asked for in it.
+pub(super) fn rule_findings(rows: &[Row]) -> Vec<String> {
+    let rows = of_group(rows, "rules");
+    let told = |way: &Way| {
+        let pairs = Pairs::of(&rows, way, |_| true);
+        let angles = pairs.medians(|report| report.statistics.min_angle_free_deg);
+        let sizes = pairs.medians(|report| Some(report.size_ratio_lfs));
+        Some(format!(
+            "**The rule of the later point against the paper's, {}**, on {} of {} pairs: {} times the triangles and {} times the \
+             seconds (medians of ratios), {} : {} triangles/∫dA/lfs², smallest angle {} : {} in the median, {} : {} at worst.",
+            way.title,
+            pairs.reports.len(),
+            pairs.asked,
+            number(pairs.triangles()?),
+            number(pairs.seconds()?),
+            number(sizes[1]),
+            number(sizes[0]),
+            degrees(angles[1]),
+            degrees(angles[0]),
+            degrees(pairs.least_angle(1)),
+            degrees(pairs.least_angle(0))
+        ))
+    };
+    WAYS.iter().filter_map(told).collect()
+}
+
+/// A table for each way, with a line for each order, t and c_b by the paper's rule.
+pub(super) fn rules(rows: &[Row]) -> String {
+    let rows = of_group(rows, "rules");
+    let papers: Vec<&Row> = rows.iter().copied().filter(|row| !is_later(row)).collect();
+    let orders = first_seen(papers.iter().filter_map(|row| named(row, "order")));
+    let (ts, c_bs) = (
+        distinct(papers.iter().map(|row| row.cell.t)),
+        distinct(papers.iter().map(|row| row.cell.c_b)),
+    );
+    let mut text = String::new();
+    for way in &WAYS {
+        let mut lines = Vec::new();
+        for order in &orders {
+            for (t, c_b) in ts.iter().flat_map(|t| c_bs.iter().map(move |c_b| (*t, *c_b))) {
+                let wanted = |row: &Row| named(row, "order") == Some(order) && row.cell.t == t && row.cell.c_b == c_b;
+                let pairs = Pairs::of(&rows, way, wanted);
+                if pairs.asked > 0 {
+                    lines.push(line(&pairs, way, order, t, c_b));
+                }
+            }
+        }
+        if !lines.is_empty() {
+            text += &format!("### {}\n\n{}", way.title, table(&HEAD, &lines));
+        }
+    }
+    text
+}
+
+const HEAD: [&str; 14] = [
+    "order",
+    "t",
+    "c_b",
+    "pairs measured",
+    "bound, paper",
+    "smallest angle, median",
+    "worst",
+    "bound, later",
+    "smallest angle, median",
+    "worst",
+    "triangles/∫dA/lfs², paper",
+    "later",
+    "triangles, later over paper",
+    "seconds, later over paper",
+];
+
+fn line(pairs: &Pairs, way: &Way, order: &str, t: f64, c_b: f64) -> Vec<String> {
+    let angles = pairs.medians(|report| report.statistics.min_angle_free_deg);
+    let sizes = pairs.medians(|report| Some(report.size_ratio_lfs));
+    let both = |one: f64, times: f64| match times {
+        1.0 => parameter(one),
+        _ => format!("{} : {}", parameter(one), parameter(times * one)),
+    };
+    vec![
+        order.to_string(),
+        both(t, way.t_times),
+        both(c_b, way.c_b_times),
+        format!("{} of {}", pairs.reports.len(), pairs.asked),
+        degrees(min_angle_bound_deg(Rule::Earlier, t)),
+        degrees(angles[0]),
+        degrees(pairs.least_angle(0)),
+        degrees(min_angle_bound_deg(Rule::Later, way.t_times * t)),
+        degrees(angles[1]),
+        degrees(pairs.least_angle(1)),
+        number(sizes[0]),
+        number(sizes[1]),
+        number(pairs.triangles()),
+        number(pairs.seconds()),
+    ]
+}

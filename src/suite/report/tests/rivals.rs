@@ -1,0 +1,306 @@
+//! Comparisons against numbers worked out by hand.
+
+use super::super::duels::{YARDSTICKS, duel};
+use super::super::fixture::{asked, done, lines};
+use super::super::ranks::{rank_finding, rankings};
+use super::super::{page, write};
+use crate::quality::{Angles, Seams};
+use crate::suite::analysis::contest::{Contest, Method, at_equal_count, at_equal_size};
+use crate::suite::analysis::remarks::{meetings, samplings};
+use crate::suite::rows::record::{Outcome, Row, Try};
+use serde_json::{Map, Value, json};
+
+fn none() -> Value {
+    Value::Object(Map::new())
+}
+
+/// Two meshers and a variant on three domains; the rival fails on the third.
+fn three_domains() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (domain, triangles, ours, theirs) in [("a", 1000, 10.0, 8.0), ("b", 2000, 12.0, 16.0), ("c", 3000, 14.0, 0.0)] {
+        rows.push(done("meshers", domain, "biting", none(), triangles, ours));
+        rows.push(done(
+            "meshers",
+            domain,
+            "biting",
+            json!({ "order": "fifo" }),
+            triangles,
+            ours,
+        ));
+        if domain == "c" {
+            let mut failed = asked("meshers", domain, "rival", none());
+            (failed.outcome, failed.reason) = (Outcome::Failed, Some("fronts did not close".into()));
+            rows.push(failed);
+        } else {
+            rows.push(done("meshers", domain, "rival", none(), 2 * triangles, theirs));
+        }
+    }
+    rows
+}
+
+#[test]
+fn places_are_by_medians_over_common_tasks() {
+    let rows = three_domains();
+    let rankings = rankings(&at_equal_size(&rows), false);
+    assert_eq!(rankings[0].name, YARDSTICKS[0].name);
+    // Of a and b: ours 10 and 12 above the bound, its variant the same, the rival's 8 and 16.
+    let places = [0, 1, 2].map(|method| rankings[0].place(method).unwrap().0);
+    assert_eq!(places, [2, 2, 1]);
+    let triangles = rankings.iter().find(|ranking| ranking.name == "triangles").unwrap();
+    assert_eq!(
+        [0, 1, 2].map(|method| triangles.place(method).unwrap()),
+        [(1, 1500.0), (1, 1500.0), (3, 3000.0)]
+    );
+    let told = rank_finding(&rows).unwrap();
+    assert!(
+        told.contains("among all 3 methods") && told.contains("2nd with 25.5, behind rival with 26.5"),
+        "{told}"
+    );
+    let without_variant: Vec<Row> = rows.into_iter().filter(|row| row.cell.params.is_empty()).collect();
+    assert_eq!(rank_finding(&without_variant), None);
+}
+
+#[test]
+fn other_pages_quote_a_table_of_one_method_a_mesher() {
+    let told = page::findings_in_short(&three_domains());
+    assert!(
+        !told.contains("**biting : rival**") && !told.contains("among all"),
+        "{told}"
+    );
+    let table: Vec<&str> = told
+        .lines()
+        .skip_while(|line| !line.starts_with("At equal edge length"))
+        .collect();
+    assert!(table[0].contains("the 2 of 3 tasks"), "{told}");
+    let cells = |line: &str| line.split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
+    let [ours, theirs] = [4, 5].map(|k: usize| cells(table[k]));
+    assert_eq!(
+        [ours[1].as_str(), ours[2].as_str(), ours[6].as_str()],
+        ["biting", "25.5", "**1500**"]
+    );
+    assert_eq!(
+        [theirs[1].as_str(), theirs[2].as_str(), theirs[6].as_str()],
+        ["rival", "**26.5**", "3000"]
+    );
+    assert_eq!(table.len(), 6, "{told}");
+    // Who measured one of three is named, and takes no part.
+    let mut rows = three_domains();
+    for row in rows
+        .iter_mut()
+        .filter(|row| row.cell.mesher == "rival" && row.cell.domain == "a")
+    {
+        (row.outcome, row.report) = (Outcome::Failed, None);
+    }
+    let told = page::findings_in_short(&rows);
+    assert!(
+        told.contains("the 3 of 3 tasks") && told.contains("(left out: rival, with fewer than half)"),
+        "{told}"
+    );
+    assert!(!told.contains("| rival"), "{told}");
+}
+
+#[test]
+fn methods_are_named_by_what_differs() {
+    let of = |params: Value| Method::of(&asked("meshers", "a", "biting", params));
+    assert_eq!(of(none()).label, "biting");
+    assert_eq!(of(json!({ "order": "largest" })), of(none()));
+    assert_eq!(of(json!({ "order": "fifo" })).label, "biting order=fifo");
+    assert!(of(none()).is_default && of(none()).place == 0 && !of(json!({ "order": "fifo" })).is_default);
+}
+
+#[test]
+fn a_contest_counts_who_failed_and_compares_on_common_tasks() {
+    let rows = three_domains();
+    let contest = at_equal_size(&rows);
+    let labels: Vec<&str> = contest.methods.iter().map(|method| method.label.as_str()).collect();
+    assert_eq!(labels, ["biting", "biting order=fifo", "rival"]);
+    assert_eq!((contest.leads(), contest.tasks.len()), (vec![0, 2], 3));
+    assert_eq!(contest.common(&contest.all()), [0, 1]);
+    assert_eq!(contest.common(&[0, 1]), [0, 1, 2]);
+    assert_eq!(
+        (contest.count(2, Outcome::Failed), contest.count(2, Outcome::Measured)),
+        (1, 2)
+    );
+    assert_eq!(
+        contest.median(0, &[0, 1], |report| Some(report.statistics.triangles as f64)),
+        Some(1500.0)
+    );
+    assert!(at_equal_count(&rows).tasks.is_empty());
+    let alone: Vec<Row> = rows.into_iter().filter(|row| row.cell.mesher == "biting").collect();
+    assert!(!at_equal_size(&alone).has_rivals());
+}
+
+#[test]
+fn duels_by_hand() {
+    let rows = three_domains();
+    let contest = at_equal_size(&rows);
+    let smallest = duel(&contest, 0, 2, YARDSTICKS[0]).unwrap();
+    assert_eq!((smallest.better, smallest.worse, smallest.of), (1, 1, 2));
+    assert!((smallest.difference + 1.0).abs() < 1e-9);
+    assert_eq!(smallest.ends.map(|(task, _)| task), [0, 1]);
+    assert!((smallest.ends[0].1 - 2.0).abs() < 1e-9 && (smallest.ends[1].1 + 4.0).abs() < 1e-9);
+    // Half the triangles is better; the difference is ours less theirs.
+    let triangles = duel(&contest, 0, 2, YARDSTICKS[4]).unwrap();
+    assert_eq!(
+        (triangles.better, triangles.worse, triangles.difference),
+        (2, 0, -1500.0)
+    );
+    // The fixture gives every mesh a microsecond a triangle.
+    let time = duel(&contest, 0, 2, YARDSTICKS[6]).unwrap();
+    assert_eq!((time.better, time.worse), (0, 0));
+}
+
+/// Cells of a rival that samples 2 and 16 points a side, on two domains.
+fn densities() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (domain, scale) in [("a", 1), ("b", 4)] {
+        rows.push(done("oversampling", domain, "biting", none(), 1000 * scale, 10.0));
+        for (points, is_complete, triangles) in [(16, false, 1100), (2, false, 800), (2, true, 1200)] {
+            let params = json!({ "oversample": points, "complete": is_complete });
+            rows.push(done("oversampling", domain, "rival", params, triangles * scale, 10.0));
+        }
+    }
+    rows
+}
+
+#[test]
+fn densities_by_hand() {
+    let rows = densities();
+    let found = samplings(&Contest::of(&rows));
+    let told: Vec<_> = found
+        .iter()
+        .map(|one| (one.points, one.is_complete, one.triangles, one.seconds))
+        .collect();
+    // The fixture's seconds go with its triangles.
+    let same = |ratio| (Some(ratio), Some(ratio));
+    let expected = [
+        (2.0, false, same(0.8)),
+        (16.0, false, same(1.1)),
+        (2.0, true, same(1.2)),
+    ];
+    for (told, expected) in told.iter().zip(expected) {
+        assert_eq!((told.0, told.1), (expected.0, expected.1));
+        assert!((told.2.unwrap() - expected.2.0.unwrap()).abs() < 1e-12, "{told:?}");
+        assert!((told.3.unwrap() - expected.2.1.unwrap()).abs() < 1e-12, "{told:?}");
+    }
+    assert_eq!(found[0].tasks, [2, 2]);
+}
+
+fn angles(triangles: usize, mean_deg: f64) -> Angles {
+    Angles {
+        triangles,
+        min_deg: 10.0,
+        mean_deg,
+        p05_deg: 30.0,
+        share_under_30: 0.1,
+    }
+}
+
+/// A rival that marks where fronts met, worse there on two of three domains.
+fn fronts() -> Vec<Row> {
+    let means = [("a", 40.0, 50.0), ("b", 45.0, 44.0), ("c", 30.0, 55.0)];
+    let one = |(domain, there, elsewhere): (&str, f64, f64)| {
+        let mut row = done("meshers", domain, "front", none(), 1000, 10.0);
+        if let Some(report) = &mut row.report {
+            report.statistics.seams = Some(Seams {
+                met: angles(100, there),
+                elsewhere: angles(900, elsewhere),
+            });
+        }
+        row
+    };
+    means.into_iter().map(one).collect()
+}
+
+#[test]
+fn meetings_by_hand() {
+    let mut rows = fronts();
+    rows.extend(three_domains());
+    let found = meetings(&rows);
+    assert_eq!(found.len(), 1);
+    let front = &found[0];
+    assert_eq!((front.meshes, front.worse, front.share), ([3, 3], 2, 0.1));
+    assert_eq!((front.met.mean_deg, front.elsewhere.mean_deg), (40.0, 50.0));
+}
+
+/// Everything together, and cells at equal count, one of which missed.
+fn everything() -> Vec<Row> {
+    let mut rows = three_domains();
+    rows.extend(fronts());
+    rows.extend(densities());
+    for (mesher, triangles) in [("biting", 5010), ("rival", 5900)] {
+        let mut cell = done("count", "a", mesher, none(), triangles, 9.0);
+        cell.cell.triangles = Some(5000);
+        cell.tries = vec![Try {
+            c_b: 0.4,
+            triangles: Some(triangles as u64),
+        }];
+        rows.push(cell);
+    }
+    for (mesher, power) in [("biting", 1.0), ("rival", 1.5)] {
+        for size in [10_000usize, 40_000, 160_000] {
+            let mut cell = done("time", &format!("square-{size}"), mesher, none(), size, 9.0);
+            if let Some(report) = &mut cell.report {
+                report.seconds.total = 1e-6 * (size as f64).powf(power);
+            }
+            rows.push(cell);
+        }
+    }
+    rows
+}
+
+#[test]
+fn the_page_sets_meshers_side_by_side() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("rows.jsonl"), lines(&everything())).unwrap();
+    let text = std::fs::read_to_string(write(folder.path()).unwrap()).unwrap();
+    for expected in [
+        "| rival | 2 of 3 | 0 | 0 | 1 of 3 |",
+        "2 of 3 tasks were measured by all",
+        "1 of 2 meshes did not come so near, the farthest being 18.0 % off",
+        "### biting against rival, at equal edge length",
+        "### biting against rival, at equal triangle count",
+        "**The paper's claim that an advancing front loses quality where fronts meet holds** for front",
+        "**The paper's claim that independent sets of oversampled points cost more holds in part**: 2 of 3",
+        "| biting | 3 of 3 | 10000 to 160000 |",
+        "| `meshers/c/rival/{}` | failed | fronts did not close |",
+    ] {
+        assert!(text.contains(expected), "{expected}\n{text}");
+    }
+    for chart in [
+        "meshers",
+        "meshers-angles",
+        "meshers-domains",
+        "meshers-count",
+        "meshers-count-angles",
+        "meshers-count-domains",
+        "meshers-time",
+        "seams",
+        "oversampling",
+    ] {
+        for ending in ["png", "svg"] {
+            assert!(text.contains(&format!("charts/{chart}.{ending}")), "{chart}");
+            assert!(
+                folder.path().join(format!("charts/{chart}.{ending}")).is_file(),
+                "{chart}"
+            );
+        }
+    }
+    let drawn = std::fs::read_to_string(folder.path().join("charts/meshers-domains.svg")).unwrap();
+    assert!(drawn.contains("failed"), "a failure shows in the chart");
+    let drawn = std::fs::read_to_string(folder.path().join("charts/meshers.svg")).unwrap();
+    assert!(drawn.contains("rival (2 of 3)"), "and beside the name");
+}
+
+#[test]
+fn the_findings_tell_of_every_rival() {
+    let told = page::finding_lines(&everything());
+    let line = told.lines().find(|line| line.contains("**biting : rival**")).unwrap();
+    assert!(
+        line.contains("; even in smallest angle (°)")
+            && line.contains("(1 of 2)")
+            && line.contains("At equal triangle count"),
+        "{line}"
+    );
+    assert!(told.contains("**biting : front**"), "{told}");
+}

@@ -1,0 +1,16 @@
+//! Batteries: families of many small cases, each judged by the full certificate, tallied instead of kept a row each.
+//!
+//! [`family`] says which case has which number, [`trial`] runs one, [`worker`] does so in a process of its own that may
+//! die or hang, [`campaign`] deals the cases out in chunks, [`chunk`] is the line that each chunk leaves, and
+//! [`crate::suite::analysis::expect_battery`] holds all of them against what was expected.
+//!
+//! Every case is a function of family and number, and can be run again by [`family::Case::command`].
+
+pub mod campaign;
+pub mod chunk;
+pub mod family;
+pub mod trial;
+pub mod worker;
+
+/// The file of chunks in an experiment's folder.
+pub const CHUNKS: &str = "chunks.jsonl";

@@ -1,0 +1,180 @@
+//! One case run and judged.
+
+use crate::domain::{self, Domain, gallery};
+use crate::mesh::Mesh;
+use crate::meshers::{Budget, MeshError, Request, Trace};
+use crate::quality::{self, Bounds, Check};
+use crate::spacing::{self, Integral, Options, Rule, SpacingError, estimate_triangles};
+use crate::suite::run::battery::family::Case;
+use crate::suite::run::ending::guarded;
+use crate::suite::run::measure;
+use crate::suite::run::prepare::fill_in;
+use crate::suite::run::runner::{self, VERTICES_PER_BUDGET_TRIANGLE};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// Relative error asked of the integral that bounds the number of vertices, and foretells that of triangles.
+const INTEGRAL_ERROR: f64 = 0.02;
+
+/// Memory a worker may use, bytes; above it a mesher is stopped.
+const MOST_MEMORY: u64 = 3_000_000_000;
+
+/// How a case ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// There is a mesh, and every guaranteed check of its certificate holds.
+    Certified,
+    /// A typed error says why there is none, though the domain is valid.
+    Declined,
+    /// A budget ended it, or it was expected to need more than the budget has.
+    Stopped,
+    /// The domain is no valid PSLG, and was refused with the reason.
+    Refused,
+    /// It panicked, or ended its process.
+    Panicked,
+    /// It was not done long after its time budget.
+    Hung,
+    /// A guaranteed check of the certificate fails.
+    Invalid,
+}
+
+/// A case that was run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// How it ended.
+    pub verdict: Verdict,
+    /// Why it is not certified.
+    pub reason: Option<String>,
+    /// Triangles of the mesh; 0 where there is none.
+    pub triangles: usize,
+    /// Of the mesh; empty where there is none.
+    pub fingerprint: String,
+    /// Random domains that were thrown away before this one, since they were no valid PSLG.
+    pub discarded: usize,
+    /// From the domain's name to the verdict.
+    pub seconds: f64,
+}
+
+impl Trial {
+    /// A case that has no mesh.
+    pub fn without_mesh(verdict: Verdict, reason: String) -> Self {
+        Self {
+            verdict,
+            reason: Some(reason),
+            triangles: 0,
+            fingerprint: String::new(),
+            discarded: 0,
+            seconds: 0.0,
+        }
+    }
+}
+
+/// Runs a case as `biting mesh` would, and judges its mesh.
+pub fn run(case: &Case) -> Trial {
+    let start = Instant::now();
+    let ended = guarded(|| attempt(case));
+    let trial = match ended {
+        Ok(Ok(trial)) => trial,
+        Ok(Err((verdict, reason))) => Trial::without_mesh(verdict, reason),
+        Err(panic) => Trial::without_mesh(Verdict::Panicked, panic),
+    };
+    Trial {
+        seconds: start.elapsed().as_secs_f64(),
+        discarded: guarded(|| gallery::discarded(&case.cell.domain)).unwrap_or(0),
+        ..trial
+    }
+}
+
+/// Why there is no mesh.
+type NoMesh = (Verdict, String);
+
+fn attempt(case: &Case) -> Result<Trial, NoMesh> {
+    let cell = &case.cell;
+    let site = Site::new(case)?;
+    let most = case.budget.triangles;
+    let expected = site
+        .integral
+        .map_or(0.0, |integral| estimate_triangles(integral.value, cell.c_b));
+    if expected > most {
+        let reason = format!("about {expected:.0} triangles expected, above the budget of {most}");
+        return Err((Verdict::Stopped, reason));
+    }
+    let declined = |reason| (Verdict::Declined, reason);
+    let (entry, mesher) = runner::mesher(cell).map_err(declined)?;
+    let request = Request {
+        c_b: cell.c_b,
+        seed: cell.seed,
+        threads: 1,
+        budget: Budget {
+            max_vertices: Some((VERTICES_PER_BUDGET_TRIANGLE * most) as usize),
+            max_seconds: Some(case.budget.seconds),
+            max_memory: Some(MOST_MEMORY),
+        },
+    };
+    let made = mesher.mesh(&site.domain, &*site.spacing.function, &request, &mut Trace::default());
+    let mesh = made.map_err(|error| match error {
+        MeshError::Budget { .. } => (Verdict::Stopped, error.to_string()),
+        _ => declined(error.to_string()),
+    })?;
+    let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*site.spacing.function, cell.c_b);
+    let broken = site.broken((cell.c_b, entry.rule(&cell.params)), &guaranteed, &mesh);
+    Ok(Trial {
+        verdict: if broken.is_none() {
+            Verdict::Certified
+        } else {
+            Verdict::Invalid
+        },
+        reason: broken,
+        triangles: mesh.triangles.len(),
+        fingerprint: measure::fingerprint(&mesh),
+        discarded: 0,
+        seconds: 0.0,
+    })
+}
+
+/// Domain and spacing, as for the cells of a sweep; its integral where asked for, to fewer digits.
+struct Site {
+    domain: Domain,
+    spacing: spacing::Prepared,
+    integral: Option<Integral>,
+}
+
+impl Site {
+    fn new(case: &Case) -> Result<Self, NoMesh> {
+        let cell = &case.cell;
+        let domain = domain::load(&cell.domain).map_err(|error| (Verdict::Refused, error.to_string()))?;
+        let declined = |error: SpacingError| (Verdict::Declined, error.to_string());
+        let spec = fill_in(&cell.spacing, &domain);
+        let spacing = spacing::build(&spec, &domain, &Options::new(cell.t, cell.c_b)).map_err(declined)?;
+        let integrate = || spacing::integrate(&*spacing.function, &domain, INTEGRAL_ERROR);
+        let integral = case.integral.then(integrate).transpose().map_err(declined)?;
+        Ok(Self {
+            domain,
+            spacing,
+            integral,
+        })
+    }
+
+    /// The guaranteed checks that a mesh breaks, in words.
+    fn broken(&self, (c_b, rule): (f64, Rule), guaranteed: &[&str], mesh: &Mesh) -> Option<String> {
+        let bounds = Bounds {
+            spacing: &*self.spacing.function,
+            c_b,
+            rule,
+            lfs_cap: self.spacing.lfs_cap,
+            integral: self.integral.map(|integral| integral.value),
+            integral_error: self.integral.map_or(0.0, |integral| integral.error),
+            guaranteed,
+        };
+        let (_, certificate) = quality::judge(&self.domain, mesh, Some(&bounds));
+        let told = |check: &Check| {
+            let number = |value: Option<f64>| value.map_or_else(|| "nothing".into(), |value| value.to_string());
+            let place = check.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
+            let (worst, bound) = (number(check.worst), number(check.bound));
+            format!("{}: {worst} where {bound} is the bound{place}", check.claim)
+        };
+        let broken: Vec<String> = certificate.broken().map(told).collect();
+        (!broken.is_empty()).then(|| broken.join("; "))
+    }
+}

@@ -1,0 +1,192 @@
+//! One mesh and all that is known of it: what `mesh` and `sweep` share.
+
+use crate::mesh::Mesh;
+use crate::meshers::{Entry, MeshError, Mesher, Request, Trace, resident_bytes};
+use crate::quality;
+use crate::suite::fem::{self, Problem, Solution};
+use crate::suite::peers;
+use crate::suite::rows::machine;
+use crate::suite::rows::record::{Cell, Outside, Provenance, Report, Seconds};
+use crate::suite::run::prepare::{Prepared, Site};
+use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+/// A mesh as it came from its mesher, not yet judged.
+#[derive(Debug)]
+pub struct Run {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Seconds, in all and by step.
+    pub seconds: Seconds,
+    /// Counts the mesher reports of itself.
+    pub counts: BTreeMap<String, f64>,
+    /// Memory of the process just before, bytes.
+    pub rss_before_bytes: u64,
+    /// Peak memory of the process by the end, bytes.
+    pub peak_rss_bytes: u64,
+    /// What a mesher outside this crate told of its run.
+    pub outside: Option<Outside>,
+}
+
+/// Meshes, and times that.
+///
+/// # Errors
+/// The mesher's.
+pub fn run(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Result<Run, MeshError> {
+    let mut trace = Trace {
+        background: prepared.background.get().cloned(),
+        ..Trace::default()
+    };
+    let rss_before_bytes = resident_bytes().unwrap_or(0);
+    let start = Instant::now();
+    let mesh = mesher.mesh(&prepared.site.domain, &*prepared.spacing, request, &mut trace)?;
+    let total = start.elapsed().as_secs_f64();
+    if let Some(background) = trace.background.take() {
+        // Where another thread was first, its is the same.
+        let _ = prepared.background.set(background);
+    }
+    let mut steps = Map::new();
+    for (name, duration) in &trace.steps {
+        let before = steps.get(*name).and_then(Value::as_f64).unwrap_or(0.0);
+        steps.insert((*name).into(), Value::from(before + duration.as_secs_f64()));
+    }
+    let mut run = Run {
+        mesh,
+        seconds: Seconds { total, steps },
+        counts: trace
+            .counts
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect(),
+        rss_before_bytes,
+        peak_rss_bytes: machine::peak_rss_bytes(),
+        outside: None,
+    };
+    if let Some(told) = trace.outside {
+        run.seconds.total = told.seconds;
+        (run.rss_before_bytes, run.peak_rss_bytes) = (told.rss_before_bytes, told.peak_rss_bytes);
+        run.counts.extend(told.counts);
+        run.outside = Some(Outside {
+            version: told.version,
+            set_up_seconds: told.set_up,
+            repeats_differ: false,
+        });
+    }
+    Ok(run)
+}
+
+/// Everything about a mesh: statistics, certificate, and what made it.
+pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provenance: &Provenance) -> Report {
+    let (site, c_b) = (&*prepared.site, cell.c_b);
+    let t_effective = c_b * prepared.spacing.lipschitz();
+    let triangles = run.mesh.triangles.len() as f64;
+    let integral = prepared.integral.value;
+    let size_ratio = triangles / integral;
+    let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*prepared.spacing, c_b);
+    let rule = entry.rule(&cell.params);
+    let bounds = prepared.bounds(c_b, rule, &guaranteed);
+    let (poisson, poisson_failed) = poisson(cell, site, run);
+    let (statistics, certificate) = quality::judge(&site.domain, &run.mesh, Some(&bounds));
+    Report {
+        domain: site.domain.name().into(),
+        mesher: entry.name.into(),
+        params: complete(cell),
+        spacing: prepared.spec.clone(),
+        t: cell.t,
+        t_effective,
+        c_b,
+        alpha: cell.t / c_b,
+        seed: cell.seed,
+        lfs_cap: prepared.lfs_cap,
+        smallest_input_angle_deg: site.domain.smallest_input_angle_deg(),
+        smallest_segment_angle_deg: site.domain.smallest_segment_angle_deg(),
+        forced_pieces: run.mesh.forced_pieces,
+        integral,
+        integral_error: prepared.integral.error,
+        integral_lfs: site.integral_lfs.value,
+        size_ratio,
+        size_ratio_lfs: triangles / site.integral_lfs.value,
+        size_efficiency: size_ratio * 0.25 * 3.0f64.sqrt() * c_b * c_b,
+        min_angle_bound_deg: quality::min_angle_bound_deg(rule, t_effective),
+        fingerprint: fingerprint(&run.mesh),
+        statistics,
+        seconds: run.seconds.clone(),
+        rss_before_bytes: run.rss_before_bytes,
+        peak_rss_bytes: run.peak_rss_bytes,
+        outside: run.outside.clone(),
+        poisson,
+        poisson_failed,
+        rounds: prepared.rounds.to_vec(),
+        counts: run.counts.clone(),
+        certificate,
+        provenance: provenance.clone(),
+    }
+}
+
+/// Solves the Poisson problem that a cell asks for, if it asks; or tells why it cannot be solved, as on a mesh that is none of
+/// the domain.
+fn poisson(cell: &Cell, site: &Site, run: &Run) -> (Option<Solution>, Option<String>) {
+    let Some(name) = &cell.poisson else {
+        return (None, None);
+    };
+    let solved = Problem::named(name, site.domain.bounds()).and_then(|problem| fem::solve(&run.mesh, &problem));
+    match solved {
+        Ok(solution) => (Some(solution), None),
+        Err(error) => (None, Some(error.to_string())),
+    }
+}
+
+/// All parameters of a cell's mesher: those it names, and the defaults of the rest.
+pub fn complete(cell: &Cell) -> Map<String, Value> {
+    peers::find(&cell.mesher).map_or_else(|| cell.params.clone(), |entry| entry.complete(&cell.params))
+}
+
+/// A hash of the mesh's points and triangles, bit by bit, in hexadecimal: FNV-1a of 64 bits over their words. Equal
+/// meshes have equal ones; different meshes different ones, but for chance.
+pub fn fingerprint(mesh: &Mesh) -> String {
+    let points = mesh
+        .points
+        .iter()
+        .flat_map(|point| [point.x.to_bits(), point.y.to_bits()]);
+    let corners = mesh.triangles.iter().flatten().map(|&corner| u64::from(corner));
+    let hash = points.chain(corners).fold(0xcbf2_9ce4_8422_2325u64, |hash, word| {
+        // Whole words instead of bytes; the rotation lets their high bits reach the low ones.
+        (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(29)
+    });
+    format!("{hash:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::DVec2;
+    use crate::meshers;
+
+    #[test]
+    fn a_fingerprint_sees_one_bit_and_one_corner() {
+        let mesh = Mesh {
+            points: vec![DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE],
+            triangles: vec![[0, 1, 2], [1, 3, 2]],
+            ..Mesh::default()
+        };
+        let (mut moved, mut turned) = (mesh.clone(), mesh.clone());
+        moved.points[3].y = 1.0f64.next_up();
+        turned.triangles[1] = [3, 2, 1];
+        let all = [&mesh, &moved, &turned].map(fingerprint);
+        assert_eq!(all[0], fingerprint(&mesh.clone()));
+        assert!(all[0] != all[1] && all[0] != all[2] && all[1] != all[2], "{all:?}");
+    }
+
+    #[test]
+    fn defaults_complete_what_a_cell_names() {
+        for entry in meshers::MESHERS {
+            let mut cell = Cell::new("unit-square", entry.name, "lfs", 0.25, 0.5);
+            let defaults = complete(&cell);
+            assert_eq!(defaults.len(), entry.parameters.len(), "{}", entry.name);
+            assert!((entry.make)(&defaults).is_ok(), "{}: its defaults make it", entry.name);
+            cell.params = defaults.clone();
+            assert_eq!(complete(&cell), defaults);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! From a plan to rows: [`plan`] reads an experiment's cells, [`work`] gathers those with one mesh, [`runner`] runs them by
+//! [`measure`] on what [`prepare`] made.
+
+pub mod adapt;
+pub mod battery;
+mod ending;
+mod gate;
+pub mod measure;
+pub mod plan;
+pub mod prepare;
+pub mod runner;
+pub mod tune;
+pub mod work;

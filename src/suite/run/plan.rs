@@ -1,0 +1,321 @@
+//! An experiment as a TOML file: its question, its budget, what it expects, and groups of cells.
+//!
+//! ```toml
+//! question = "How far above the bound is the smallest angle?"
+//!
+//! [budget]                       # of each cell; a cell above it is written as skipped, with the estimate
+//! triangles = 150_000
+//! seconds = 60.0
+//!
+//! [expect]                       # where one of these breaks, the run ends with exit status 1
+//! certificate_holds = true
+//! measured_share = 0.8
+//! measured_per_domain = { lakes = 10 }
+//! adapted_slope = { most = -0.9, least = -1.2 }   # of the L2 error of adapted meshes against vertices, in logarithms
+//!
+//! [[group]]                      # every combination of the lists is a cell
+//! name = "grid"
+//! domains = ["unit-square", "lakes"]
+//! spacings = ["lfs"]
+//! mesher = "biting"
+//! params = [{ order = "fifo" }]  # default: one cell with the mesher's defaults
+//! # several meshers: `methods = [{ mesher = "biting" }, { mesher = "biting", params = { order = "fifo" } }]` instead of both;
+//! # or `methods = "all"`, the list `all` of a table `[methods]` at the top
+//! t = [0.25, "1/3"]              # numbers or fractions
+//! c_b = [0.25, 1.0]
+//! seeds = [0]                    # default
+//! lfs_cap = true                 # default
+//! background = 0.05              # without it a limited spacing is evaluated itself, with it on a background of that error
+//! equal_triangles = 20_000       # or a list; without it c_b stays as asked, with it c_b is scaled until a mesh has so many
+//! threads = [1]                  # default
+//! poisson = "smooth"             # without it nothing is solved
+//! adapt = [{ eps = 1e-3, rounds = 6 }]   # without it the spacing is as it says; with it adapted to u of that problem first
+//! timed = false                  # default; a timed cell runs alone, `repeats` times
+//! repeats = 3                    # default
+//! quick = { t = [0.25] }         # lists that replace those above under --quick; without it the group is left out
+//! ```
+//!
+//! Another kind of experiment has batteries in place of groups: many small cases, tallied ([`Battery`]).
+//!
+//! ```toml
+//! [expect]                       # what counts there
+//! panicked = 0                   # cases that ended so
+//! hung = 0
+//! invalid = 0
+//! declined_share = 0.01          # of a mesher's valid domains
+//! skipped_families = 0           # those whose files are not there
+//!
+//! [[battery]]                    # each domain by every method, with a spacing, t and c_b drawn for each mesh
+//! families = ["fan", "slits"]
+//! domain = "random-pslg:kind={family},seed={seed}"   # or folder = "out/outlines/{family}", fetch = "the command"
+//! domains = 1000                 # of each family
+//! methods = [{ mesher = "biting" }]
+//! spacings = ["lfs"]
+//! t = [0.25, "1/3"]
+//! c_b = [0.5]
+//! quick = { domains = 4 }
+//! ```
+
+mod battery;
+mod group;
+mod number;
+#[cfg(test)]
+mod tests;
+
+pub use battery::Battery;
+pub use group::{Group, Method};
+pub use number::{Number, fraction};
+
+use crate::suite::rows::record::Cell;
+use serde::Deserialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Why a plan cannot be run; one message with the file, the place and the remedy.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {problem}", file.display())]
+pub struct PlanError {
+    /// The plan's file.
+    pub file: PathBuf,
+    /// What is wrong, where, and what to do.
+    pub problem: String,
+}
+
+/// Most cells of a plan: a few lists combine to more than any memory holds.
+const MOST_CELLS: usize = 1_000_000;
+
+/// An experiment as read from its file.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The file's stem: names the folder under `results/`.
+    pub name: String,
+    /// Where it was read from.
+    pub file: PathBuf,
+    /// The file's text, kept beside the results.
+    pub text: String,
+    /// What the experiment asks.
+    pub question: String,
+    /// Limits of each cell.
+    pub budget: CellBudget,
+    /// What must come out.
+    pub expect: Expectations,
+    /// Groups of cells, in the order of the rows.
+    pub groups: Vec<Group>,
+    /// Batteries of cases; a plan has these or groups.
+    pub batteries: Vec<Battery>,
+}
+
+/// Limits of each cell.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CellBudget {
+    /// A cell expected to have more triangles is skipped.
+    pub triangles: f64,
+    /// A mesher is stopped after this many seconds.
+    pub seconds: f64,
+}
+
+impl Default for CellBudget {
+    fn default() -> Self {
+        Self {
+            triangles: 200_000.0,
+            seconds: 120.0,
+        }
+    }
+}
+
+/// What must come out; every breach is told, and makes the run's exit status 1.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Expectations {
+    /// Whether every check that applies must hold in every measured cell.
+    pub certificate_holds: bool,
+    /// Where no input angle is under 90° and t is at most this, every check must hold, also those that do not apply.
+    pub certificate_whole_up_to_t: Option<Number>,
+    /// The least share of cells that must be measured.
+    pub measured_share: f64,
+    /// The largest share of a mesher's cells that may be declined or fail, of those that are not skipped.
+    pub unmeshed_share: Option<f64>,
+    /// The least number of measured cells of some domains.
+    pub measured_per_domain: BTreeMap<String, usize>,
+    /// Between what the slope of log₁₀ L2 error against log₁₀ vertices must lie, for the adapted meshes of each problem.
+    pub adapted_slope: Option<SlopeRange>,
+    /// Of a battery: the most cases that may panic, or end their process.
+    pub panicked: Option<u64>,
+    /// Of a battery: the most cases that may hang.
+    pub hung: Option<u64>,
+    /// Of a battery: the most cases whose mesh may break a guaranteed check.
+    pub invalid: Option<u64>,
+    /// Of a battery: the largest share of valid domains that a method may decline.
+    pub declined_share: Option<f64>,
+    /// Of a battery: the most families that may be skipped since their files are not there.
+    pub skipped_families: Option<u64>,
+}
+
+/// Between what a slope must lie.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SlopeRange {
+    /// No steeper downwards than this.
+    pub least: f64,
+    /// At least as steep downwards as this.
+    pub most: f64,
+}
+
+/// One cell of a plan, before anything is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedCell {
+    /// Identifies the row; equal for equal cells of one group and different otherwise.
+    pub key: String,
+    /// The group's name.
+    pub group: String,
+    /// What is asked for.
+    pub cell: Cell,
+    /// Its limits.
+    pub budget: CellBudget,
+    /// How often to run it: 1 unless it is timed.
+    pub repeats: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    question: String,
+    #[serde(default)]
+    budget: CellBudget,
+    #[serde(default)]
+    expect: Expectations,
+    #[serde(default)]
+    methods: BTreeMap<String, Vec<Method>>,
+    #[serde(default)]
+    group: Vec<Group>,
+    #[serde(default)]
+    battery: Vec<Battery>,
+}
+
+impl Plan {
+    /// Reads and checks the plan in `file`.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the file and line, and what to change.
+    pub fn read(file: &Path) -> Result<Self, PlanError> {
+        let error = |problem: String| PlanError {
+            file: file.to_owned(),
+            problem,
+        };
+        let text = std::fs::read_to_string(file).map_err(|cause| {
+            error(format!(
+                "{cause}; run in a checkout, where `biting list` shows the experiments, or name a file"
+            ))
+        })?;
+        let name = file
+            .file_stem()
+            .map_or_else(|| "experiment".into(), |stem| stem.to_string_lossy().into_owned());
+        let File {
+            question,
+            budget,
+            expect,
+            methods,
+            mut group,
+            battery,
+        } = toml::from_str(&text).map_err(|cause| error(cause.to_string().trim_end().to_owned()))?;
+        for each in &mut group {
+            each.resolve(&methods).map_err(error)?;
+        }
+        let plan = Self {
+            name,
+            file: file.to_owned(),
+            text,
+            question,
+            budget,
+            expect,
+            groups: group,
+            batteries: battery,
+        };
+        if plan.batteries.is_empty() {
+            plan.cells()?;
+        }
+        plan.check_batteries().map_err(error)?;
+        Ok(plan)
+    }
+
+    fn check_batteries(&self) -> Result<(), String> {
+        if !self.batteries.is_empty() && !self.groups.is_empty() {
+            return Err(
+                "it has groups and batteries; put them into two files, for their results differ in kind".into(),
+            );
+        }
+        let mut names = BTreeSet::new();
+        for battery in &self.batteries {
+            let families = battery.families.join(", ");
+            battery
+                .check()
+                .map_err(|problem| format!("battery of {families}: {problem}"))?;
+            for family in &battery.families {
+                if !names.insert(family) {
+                    return Err(format!("family `{family}` stands there twice; remove one"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The part that `--quick` runs: groups with a `quick` table, with its lists in place of theirs. The expected
+    /// number of cells a domain and share of declined cases are dropped, since they speak of the whole plan.
+    pub fn into_quick(mut self) -> Self {
+        self.name.push_str("-quick");
+        self.expect.measured_per_domain.clear();
+        self.expect.declined_share = None;
+        self.expect.adapted_slope = None;
+        self.groups = self.groups.into_iter().filter_map(Group::into_quick).collect();
+        self.batteries = self.batteries.into_iter().filter_map(Battery::into_quick).collect();
+        self
+    }
+
+    /// Every cell, in the order of the rows.
+    ///
+    /// # Errors
+    /// [`PlanError`] for an empty list, a bad number, a cell that stands in a group twice, or more cells than memory is
+    /// for.
+    pub fn cells(&self) -> Result<Vec<PlannedCell>, PlanError> {
+        let error = |problem: String| PlanError {
+            file: self.file.clone(),
+            problem,
+        };
+        let combinations = self
+            .groups
+            .iter()
+            .map(Group::combinations)
+            .fold(0, usize::saturating_add);
+        if combinations > MOST_CELLS {
+            return Err(error(format!(
+                "the lists combine to {combinations} cells; at most {MOST_CELLS} are run"
+            )));
+        }
+        let mut cells = Vec::new();
+        let mut keys = BTreeSet::new();
+        for group in &self.groups {
+            let found = group
+                .cells(self.budget)
+                .map_err(|problem| error(format!("group `{}`: {problem}", group.name)))?;
+            if found.is_empty() {
+                return Err(error(format!(
+                    "group `{}` has an empty list, so no cells; fill it",
+                    group.name
+                )));
+            }
+            for planned in found {
+                if !keys.insert(planned.key.clone()) {
+                    return Err(error(format!("`{}` stands there twice; remove one", planned.key)));
+                }
+                cells.push(planned);
+            }
+        }
+        if cells.is_empty() {
+            return Err(error(
+                "no group has cells to run; under --quick only groups with a `quick` table run".into(),
+            ));
+        }
+        Ok(cells)
+    }
+}
