@@ -1,14 +1,15 @@
-//! Every command of README.md is run as written, sweeps as dry runs.
+//! The commands of README.md and docs/ run as written, sweeps as dry runs; links of all pages lead somewhere.
 
 use assert_cmd::Command;
 use std::ffi::OsStr;
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-/// The `cargo run` commands of the README's shell blocks, as arguments.
-fn commands(readme: &str) -> Vec<Vec<String>> {
+/// The `cargo run` commands of a page's shell blocks, as arguments.
+fn commands(page: &str) -> Vec<Vec<String>> {
     let mut is_shell = false;
     let mut found = Vec::new();
-    for line in readme.lines() {
+    for line in page.lines() {
         match line.trim() {
             "```sh" => is_shell = true,
             "```" => is_shell = false,
@@ -31,45 +32,87 @@ fn words(command: &str) -> Vec<String> {
     quoted.collect()
 }
 
-#[test]
-fn commands_run_as_written() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let readme = std::fs::read_to_string(root.join("README.md")).expect("README.md");
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The pages of a folder, and of the folders in it if `deep`, by path.
+fn pages(folder: &Path, deep: bool) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder").flatten() {
+        let path = entry.path();
+        if deep && path.is_dir() {
+            found.extend(pages(&path, deep));
+        } else if path.extension().is_some_and(|ending| ending == "md") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Runs the commands of a page: sweeps are planned and figures drawn from the tables of this checkout, the others follow
+/// one another in a folder of their own, which holds the input files of `examples/`.
+fn run_all(page: &Path) -> usize {
+    let text = fs::read_to_string(page).expect("a page");
     let folder = tempfile::tempdir().expect("a folder");
-    let commands = commands(&readme);
-    assert!(commands.len() >= 5, "{commands:?}");
-    // Sweeps are planned and figures drawn from the rows of this checkout; the others follow one another in a folder.
-    let (here, there): (Vec<_>, Vec<_>) = commands
-        .into_iter()
-        .partition(|arguments| ["sweep", "compare", "figures"].contains(&arguments[0].as_str()));
+    copy_inputs(folder.path());
     let run = |arguments: &[String], place: &Path, more: &[&OsStr]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_biting"));
         command.current_dir(place).args(arguments).args(more);
         command.assert().success();
     };
+    let commands = commands(&text);
+    for arguments in &commands {
+        match arguments[0].as_str() {
+            "sweep" | "compare" => run(arguments, root(), &["--dry-run".as_ref()]),
+            // The pictures of this checkout are to stay.
+            "figures" => run(arguments, root(), &["--out".as_ref(), folder.path().as_ref()]),
+            _ => run(arguments, folder.path(), &[]),
+        }
+    }
+    commands.len()
+}
+
+fn copy_inputs(folder: &Path) {
+    let Ok(examples) = fs::read_dir(root().join("examples")) else {
+        return;
+    };
+    fs::create_dir(folder.join("examples")).expect("a folder");
+    for path in examples.flatten().map(|entry| entry.path()) {
+        if path.extension().is_some_and(|ending| ending == "geojson") {
+            let name = path.file_name().expect("a file's name");
+            fs::copy(&path, folder.join("examples").join(name)).expect("a copy");
+        }
+    }
+}
+
+#[test]
+fn commands_run_as_written() {
+    let readme = root().join("README.md");
+    let docs = pages(&root().join("docs"), false);
     std::thread::scope(|scope| {
-        scope.spawn(|| {
-            for arguments in here {
-                match arguments[0].as_str() {
-                    // The pictures of this checkout are to stay.
-                    "figures" => run(&arguments, root, &["--out".as_ref(), folder.path().as_ref()]),
-                    _ => run(&arguments, root, &["--dry-run".as_ref()]),
-                }
-            }
-        });
-        there.iter().for_each(|arguments| run(arguments, folder.path(), &[]));
+        scope.spawn(|| assert!(run_all(&readme) >= 3));
+        let commands: usize = docs.iter().map(|page| run_all(page)).sum();
+        assert!(commands >= 5);
     });
 }
 
 #[test]
 fn links_lead_somewhere() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for page in ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"] {
-        let text = std::fs::read_to_string(root.join(page)).expect("a page");
+    let mut all = pages(root(), false);
+    for folder in ["docs", "baselines", "paper", "results"] {
+        all.extend(pages(&root().join(folder), true));
+    }
+    for page in all {
+        let text = fs::read_to_string(&page).expect("a page");
+        let folder = page.parent().expect("a folder");
         for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let target = link.split('#').next().unwrap_or_default();
             assert!(
-                link.starts_with("http") || root.join(link).exists(),
-                "{page} links to {link}"
+                link.starts_with("http") || folder.join(target).exists(),
+                "{} links to {link}",
+                page.display()
             );
         }
     }
