@@ -5,15 +5,17 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The `cargo run` commands of a page's shell blocks, as arguments.
+/// The `cargo run` commands of a page's shell blocks and of the table under "Reproduce", as arguments.
 fn commands(page: &str) -> Vec<Vec<String>> {
-    let mut is_shell = false;
+    let (mut is_shell, mut is_table) = (false, false);
     let mut found = Vec::new();
     for line in page.lines() {
         match line.trim() {
             "```sh" => is_shell = true,
             "```" => is_shell = false,
             command if is_shell => found.extend(command.strip_prefix("cargo run --release -- ").map(words)),
+            title if title.starts_with("## ") => is_table = title == "## Reproduce",
+            row if is_table && row.contains(" | `") => found.extend(row.split('`').nth(1).map(words)),
             _ => {}
         }
     }
@@ -51,8 +53,8 @@ fn pages(folder: &Path, deep: bool) -> Vec<PathBuf> {
     found
 }
 
-/// Runs the commands of a page: sweeps are planned and figures drawn from the tables of this checkout, the others follow
-/// one another in a folder of their own, which holds the input files of `examples/`.
+/// Runs the commands of a page: sweeps are planned, one statement is judged and figures are drawn in this checkout, whose
+/// files stay as they are; the others follow one another in a folder that holds the input files of `examples/`.
 fn run_all(page: &Path) -> usize {
     let text = fs::read_to_string(page).expect("a page");
     let folder = tempfile::tempdir().expect("a folder");
@@ -65,8 +67,8 @@ fn run_all(page: &Path) -> usize {
     let commands = commands(&text);
     for arguments in &commands {
         match arguments[0].as_str() {
-            "sweep" | "compare" => run(arguments, root(), &["--dry-run".as_ref()]),
-            // The pictures of this checkout are to stay.
+            "sweep" | "compare" => run(arguments, root(), &["--dry-run".as_ref(), "--quick".as_ref()]),
+            "lemmas" => run(arguments, root(), &["--only".as_ref(), "equation-10".as_ref()]),
             "figures" => run(arguments, root(), &["--out".as_ref(), folder.path().as_ref()]),
             _ => run(arguments, folder.path(), &[]),
         }
@@ -96,6 +98,13 @@ fn commands_run_as_written() {
         let commands: usize = docs.iter().map(|page| run_all(page)).sum();
         assert!(commands >= 5);
     });
+}
+
+#[test]
+fn the_readme_is_short() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("README.md");
+    let lines = readme.lines().count();
+    assert!(lines <= 120, "README.md has {lines} lines; docs/ has room");
 }
 
 #[test]
