@@ -26,7 +26,8 @@
 //! nothing was cut or held down.
 //!
 //! With `rule=later` two points keep the distance that the later of them asks for, and the smallest angle is at least
-//! asin((1 − t) / 2): [`beyond::rule`] has the theorem, its proof and the other bounds, which the certificate then holds.
+//! asin((1 − t) / 2). Without a boundary that is known; [`beyond::rule`] has the theorem with a boundary, its proof and the other
+//! bounds, to which the certificate then holds the mesh.
 //!
 //! With `lfs:geodesic` circles bite what they reach inside the domain only, and the same bounds hold: [`beyond::inside`] has the argument.
 //!
@@ -53,7 +54,9 @@
 //!   are held apart ([`HeadOn::Part`]), so that the angle bound needs no c_b + t ≤ 1.
 //!
 //! # Reference
-//! X.-Y. Li, S.-H. Teng, A. Üngör, "Biting: Advancing Front Meets Sphere Packing".
+//! X.-Y. Li, S.-H. Teng, A. Üngör, "Biting: Advancing Front Meets Sphere Packing". For `rule=later`: S. A. Mitchell, A. Rand,
+//! M. S. Ebeida, C. Bajaj, "Variable radii Poisson-disk sampling", CCCG 2012, where it is called current-disks and has the
+//! bound (1 − t) / 2 for domains without a boundary.
 
 // The steps are private; their links work in `cargo doc --document-private-items`.
 #![allow(rustdoc::private_intra_doc_links)]

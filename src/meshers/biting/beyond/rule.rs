@@ -9,6 +9,13 @@
 //! bisector is looked at which no third point is nearer to, mostly nothing at all, and [`Watch`] finds where it leaves
 //! what is eaten. A front vertex y is eaten by every point nearer than g(y).
 //!
+//! # What is known and what is new
+//! Mitchell, Rand, Ebeida and Bajaj compare rules for random samplings of domains without a boundary. The paper's rule is
+//! their *prior-disks*, the rule of the later point their *current-disks*. With L for t they have sin θ ≥ (1 − 2L) / 2 for the
+//! first and sin θ ≥ (1 − L) / 2 for the second, so the bound of the first subset below is theirs. New here are the boundary
+//! (the second subset, edge protection, corners of 90° and more, for any t < 1), the front of a bite that is no circle,
+//! the constants of nn and β, and the hypotheses under which all of it holds.
+//!
 //! # The smallest angle
 //! Let f ≤ lfs, c_b ≤ 1, no angle under 90°. **First subset.** The circumcentre c of a triangle is a point of the domain that
 //! sees it. Its nearest points are at distance R, the radius, and it is eaten: R ≤ g(c). Of the ends of the shortest edge let
@@ -50,8 +57,13 @@
 //!   β g(y) + g(x) ≥ (1 + β) g(y) − t D ≥ (2 + t) D.
 //!
 //! # Other rules
-//! With the smaller of g(x) and g(y) the same bound follows with more points, since it asks for less distance; with the larger,
-//! the ball around the circumcentre may be one of the paper's, and 1/2 − t is all that follows.
+//! With the smaller of g(x) and g(y) (their *smaller-disks*) the same bound follows with more points, since it asks for less
+//! distance. With the larger (*bigger-disks*) the ball around the circumcentre may be one of the paper's, and 1/2 − t is all that
+//! follows.
+//!
+//! # Reference
+//! S. A. Mitchell, A. Rand, M. S. Ebeida, C. Bajaj, "Variable radii Poisson-disk sampling", 24th Canadian Conference on
+//! Computational Geometry (CCCG), 2012.
 
 use crate::geometry::near::{Disc, Near, circle_intersections};
 use crate::geometry::{DVec2, tolerance};
