@@ -1,4 +1,4 @@
-//! Tells the crate which compiler built it: part of every row's provenance.
+//! Passes the version of the compiler to the crate: part of the provenance of results.
 
 use std::process::Command;
 

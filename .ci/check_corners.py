@@ -1,4 +1,4 @@
-"""The work of .ci/check_corners: see there. The checker is imported once, since starting it takes longer than it works."""
+"""The work of .ci/check_corners. The checker is imported once, since it takes longer to start than to check."""
 
 import contextlib
 import importlib.util

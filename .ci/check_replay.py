@@ -13,7 +13,7 @@ import tempfile
 import time
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parent.parent / "src" / "figures" / "replay"
+SCRIPTS = Path(__file__).resolve().parent.parent / "src" / "suite" / "replay"
 
 # Seconds any single answer may take.
 PATIENCE = 60
@@ -159,7 +159,7 @@ class Browser:
                 return answer["result"]
 
     def read(self, deadline):
-        """The next message; notes what it tells of errors and requests."""
+        """The next message; notes errors and requests in it."""
         while b"\0" not in self.buffer:
             ready, _, _ = select.select([self.input], [], [], max(0, deadline - time.monotonic()))
             chunk = os.read(self.input, 1 << 20) if ready else b""
