@@ -5,6 +5,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`theory`] | the paper's formulas, hypotheses and claims, each once |
 //! | [`geometry`] | points, exact predicates (the one door for signs), near-queries |
 //! | [`domain`] | the PSLG Ω to mesh: vertices, segments, holes, files, gallery, validation |
 //! | [`mesh`] | the result: triangles, markers, regions, and its files |
@@ -23,6 +24,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+mod case;
 pub mod delaunay;
 pub mod domain;
 pub mod files;
@@ -33,3 +35,6 @@ pub mod quality;
 pub mod spacing;
 #[cfg(feature = "suite")]
 pub mod suite;
+pub mod theory;
+
+pub use case::Case;

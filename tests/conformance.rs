@@ -1,12 +1,12 @@
 //! One suite for all meshers: every entry of `MESHERS` on every small domain, then the same scaled, rotated, mirrored,
 //! shuffled, run twice and with several threads. The certificate judges; nothing here knows a mesher's name.
 
+use biting::Case;
 use biting::domain::{Domain, Fill, Pslg, gallery};
 use biting::geometry::DVec2;
 use biting::mesh::{Mesh, files};
 use biting::meshers::{Budget, Entry, MESHERS, MeshError, Mesher, Parameters, Request, Trace, parameter_value};
-use biting::quality::{Bounds, judge};
-use biting::spacing::{self, Options, Prepared, Spacing};
+use biting::spacing::{self, Spacing};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
@@ -43,10 +43,9 @@ fn request(threads: usize) -> Request {
     }
 }
 
-fn prepare(pslg: &Pslg, spec: &str) -> (Domain, Prepared) {
+fn case(pslg: &Pslg, spec: &str) -> Case {
     let domain = Domain::new(pslg.clone()).expect("a valid domain");
-    let prepared = spacing::build(spec, &domain, &Options::new(T, C_B)).expect("a spacing");
-    (domain, prepared)
+    Case::new(domain, spec, T, C_B).expect("a spacing")
 }
 
 /// A mesher with parameters.
@@ -80,15 +79,14 @@ fn methods() -> Vec<Method> {
     methods
 }
 
-fn run(method: &Method, domain: &Domain, prepared: &Prepared, threads: usize) -> Result<Mesh, MeshError> {
-    let mesher = method.make();
-    mesher.mesh(domain, &*prepared.function, &request(threads), &mut Trace::default())
+fn run(method: &Method, case: &Case, threads: usize) -> Result<Mesh, MeshError> {
+    case.mesh_as(&*method.make(), &request(threads), &mut Trace::default())
 }
 
 /// Meshes and holds every guaranteed check of the certificate; a method may decline, with a reason.
 fn certified(method: &Method, pslg: &Pslg, spec: &str, what: &str) -> Option<Mesh> {
-    let (domain, prepared) = prepare(pslg, spec);
-    let mesh = match run(method, &domain, &prepared, 1) {
+    let case = case(pslg, spec);
+    let mesh = match run(method, &case, 1) {
         Ok(mesh) => mesh,
         Err(MeshError::Declined(reason)) => {
             assert!(!reason.is_empty());
@@ -96,18 +94,7 @@ fn certified(method: &Method, pslg: &Pslg, spec: &str, what: &str) -> Option<Mes
         }
         Err(error) => panic!("{} on {} {what}: {error}", method.name, pslg.name),
     };
-    let bounds = Bounds {
-        spacing: &*prepared.function,
-        c_b: C_B,
-        rule: method.entry.rule(&method.parameters),
-        lfs_cap: prepared.lfs_cap,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &method
-            .entry
-            .guaranteed(&method.parameters, &domain, &*prepared.function, C_B),
-    };
-    let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
+    let (_, certificate) = case.judge_of(&mesh, &*method.make());
     let broken: Vec<_> = certificate.broken().collect();
     assert!(
         broken.is_empty(),
@@ -117,8 +104,8 @@ fn certified(method: &Method, pslg: &Pslg, spec: &str, what: &str) -> Option<Mes
     );
     assert!(certificate.holds);
     assert_eq!(
-        mesh.points[..domain.vertices().len()],
-        *domain.vertices(),
+        mesh.points[..case.domain.vertices().len()],
+        *case.domain.vertices(),
         "input vertices come first, in order"
     );
     Some(mesh)
@@ -304,8 +291,8 @@ fn rotated_mirrored_and_shuffled() {
 fn bit_equal_when_run_twice_and_with_any_number_of_threads() {
     for method in &methods() {
         for pslg in small_gallery() {
-            let (domain, prepared) = prepare(&pslg, "lfs");
-            let meshes = [1, 1, 2, 4].map(|threads| run(method, &domain, &prepared, threads));
+            let case = case(&pslg, "lfs");
+            let meshes = [1, 1, 2, 4].map(|threads| run(method, &case, threads));
             for mesh in &meshes[1..] {
                 assert_eq!(mesh, &meshes[0], "{} on {}", method.name, pslg.name);
             }
@@ -316,11 +303,8 @@ fn bit_equal_when_run_twice_and_with_any_number_of_threads() {
 #[test]
 fn a_budget_ends_in_an_error_that_says_where() {
     for method in &methods() {
-        let (domain, prepared) = prepare(
-            &gallery::pslg("plate-hole").expect("a gallery name").expect("a domain"),
-            "lfs",
-        );
-        let mesher = method.make();
+        let plate = gallery::pslg("plate-hole").expect("a gallery name").expect("a domain");
+        let case = case(&plate, "lfs");
         let request = Request {
             budget: Budget {
                 max_vertices: Some(100),
@@ -328,7 +312,7 @@ fn a_budget_ends_in_an_error_that_says_where() {
             },
             ..request(1)
         };
-        let stopped = mesher.mesh(&domain, &*prepared.function, &request, &mut Trace::default());
+        let stopped = case.mesh_as(&*method.make(), &request, &mut Trace::default());
         match stopped {
             Err(MeshError::Budget { budget, vertices, .. }) => {
                 assert!(

@@ -1,12 +1,15 @@
 //! `lfs:geodesic` from SPEC to certificate: arms of a domain that are close outside it are not refined for each other.
 
+use biting::Case;
 use biting::delaunay::triangulate;
 use biting::domain::{Domain, Pslg, gallery};
 use biting::geometry::DVec2;
 use biting::mesh::{Mesh, Piece};
-use biting::meshers::{self, MeshError, Parameters, Request, Trace, parameter_value};
-use biting::quality::{Bounds, Certificate, Statistics, judge};
-use biting::spacing::{self, GEODESIC_T, Options, Prepared, Rule, Spacing, Uniform};
+use biting::meshers::biting::Biting;
+use biting::meshers::{self, MeshError, Parameters, parameter_value};
+use biting::quality::Certificate;
+use biting::spacing::{ControlSpacing, Spacing, Uniform};
+use biting::theory::{Claim, GEODESIC_T};
 use proptest::prelude::*;
 
 const T: f64 = 0.25;
@@ -18,64 +21,63 @@ fn named(name: &str) -> Domain {
         .expect("a gallery domain")
 }
 
-fn prepared(domain: &Domain, spec: &str) -> Prepared {
-    spacing::build(spec, domain, &Options::new(T, C_B)).expect("a spacing")
+/// The domain with that spacing, for c_b = 0.75.
+fn case(domain: &Domain, spec: &str) -> Case {
+    Case::new(domain.clone(), spec, T, C_B).expect("a spacing")
 }
 
-fn mesh(domain: &Domain, spacing: &dyn Spacing, params: &[(&str, &str)], c_b: f64) -> Result<Mesh, MeshError> {
-    mesh_by("biting", domain, spacing, params, c_b)
+/// The same spacing for another c_b.
+fn with_c_b(case: &Case, c_b: f64) -> Case {
+    Case { c_b, ..case.clone() }
 }
 
-fn mesh_by(
-    mesher: &str,
-    domain: &Domain,
-    spacing: &dyn Spacing,
-    params: &[(&str, &str)],
-    c_b: f64,
-) -> Result<Mesh, MeshError> {
+/// A constant spacing as it is, said to be capped by lfs.
+fn constant(domain: &Domain, function: impl Spacing + 'static) -> Case {
+    let spacing = ControlSpacing {
+        lfs_cap: true,
+        ..ControlSpacing::uncapped(function)
+    };
+    Case::of(domain.clone(), spacing, 1.0)
+}
+
+fn mesh_by(mesher: &str, case: &Case, params: &[(&str, &str)]) -> Result<Mesh, MeshError> {
     let params = params
         .iter()
         .map(|(name, value)| ((*name).to_owned(), parameter_value(value)));
     let params: Parameters = params.collect();
     let entry = meshers::find(mesher).expect("a mesher");
-    let mesher = (entry.make)(&params).expect("parameters");
-    mesher.mesh(domain, spacing, &Request::new(c_b), &mut Trace::default())
+    case.mesh(&*(entry.make)(&params).expect("parameters"))
 }
 
-fn judged(domain: &Domain, spacing: &dyn Spacing, mesh: &Mesh, c_b: f64) -> (Statistics, Certificate) {
-    let entry = meshers::find("biting").expect("biting");
-    let bounds = Bounds {
-        spacing,
-        c_b,
-        rule: Rule::Earlier,
-        lfs_cap: true,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &entry.guaranteed(&Parameters::new(), domain, spacing, c_b),
-    };
-    judge(domain, mesh, Some(&bounds))
+fn bitten(case: &Case) -> Mesh {
+    case.mesh(&Biting::default())
+        .unwrap_or_else(|error| panic!("{} {}: {error}", case.domain.name(), case.spacing.spec))
+}
+
+fn certificate(case: &Case, mesh: &Mesh) -> Certificate {
+    case.judge_of(mesh, &Biting::default()).1
 }
 
 /// Triangles of the mesh of a domain by biting, and its smallest angle beside input angles of 60° or more, once its
 /// certificate holds.
 fn measured(domain: &Domain, spec: &str) -> (usize, f64) {
-    let f = prepared(domain, spec).function;
-    let mesh = mesh(domain, f.as_ref(), &[], C_B).unwrap_or_else(|error| panic!("{} {spec}: {error}", domain.name()));
-    let (statistics, certificate) = judged(domain, f.as_ref(), &mesh, C_B);
+    let case = case(domain, spec);
+    let mesh = bitten(&case);
+    let (statistics, certificate) = case.judge_of(&mesh, &Biting::default());
     let broken: Vec<_> = certificate.broken().collect();
     assert!(certificate.holds, "{} {spec}: {broken:?}", domain.name());
     let claims = [
-        "packing-disjoint",
-        "coverage",
-        "min-angle",
-        "nn-vertex-upper",
-        "nn-point-lower",
+        Claim::PackingDisjoint,
+        Claim::Coverage,
+        Claim::MinAngle,
+        Claim::NnVertexUpper,
+        Claim::NnPointLower,
     ];
     if domain.has_no_acute_angle() {
         assert!(
             claims
                 .iter()
-                .all(|claim| certificate.check(claim).is_some_and(|check| check.applies))
+                .all(|claim| certificate.check(*claim).is_some_and(|check| check.applies))
         );
     }
     (mesh.triangles.len(), statistics.min_angle_free_deg.unwrap_or(60.0))
@@ -120,29 +122,26 @@ fn it_goes_with_others() {
 #[test]
 fn runs_are_equal() {
     let domain = named("two-arms");
-    let meshes = [0; 2].map(|_| {
-        let f = prepared(&domain, "lfs:geodesic").function;
-        mesh(&domain, f.as_ref(), &[], C_B).expect("a mesh")
-    });
+    let meshes = [0; 2].map(|_| bitten(&case(&domain, "lfs:geodesic")));
     assert!(meshes[0] == meshes[1]);
 }
 
 #[test]
 fn what_is_not_proved_is_declined() {
     let domain = named("two-arms");
-    let f = prepared(&domain, "lfs:geodesic").function;
+    let inside = case(&domain, "lfs:geodesic");
     let told = |result: Result<Mesh, MeshError>| match result {
         Err(MeshError::Declined(reason)) => reason,
         other => panic!("{other:?}"),
     };
-    assert!(told(mesh(&domain, f.as_ref(), &[("rule", "later")], C_B)).contains("use rule=earlier"));
-    assert!(told(mesh(&domain, f.as_ref(), &[], 3.1 * GEODESIC_T)).contains("limit the spacing's gradient"));
+    assert!(told(mesh_by("biting", &inside, &[("rule", "later")])).contains("use rule=earlier"));
+    let steep = with_c_b(&inside, 3.1 * GEODESIC_T);
+    assert!(told(steep.mesh(&Biting::default())).contains("limit the spacing's gradient"));
     for mesher in ["quadtree-mis", "advancing-front"] {
-        assert!(told(mesh_by(mesher, &domain, f.as_ref(), &[], C_B)).contains("use lfs as spacing"));
+        assert!(told(mesh_by(mesher, &inside, &[])).contains("use lfs as spacing"));
     }
-    let [inside, plane] = ["lfs:geodesic", "lfs"].map(|spec| {
-        let f = prepared(&domain, spec).function;
-        let mesh = mesh_by("delaunay-refinement", &domain, f.as_ref(), &[], C_B).expect("a mesh");
+    let [inside, plane] = [inside, case(&domain, "lfs")].map(|case| {
+        let mesh = mesh_by("delaunay-refinement", &case, &[]).expect("a mesh");
         mesh.triangles.len()
     });
     assert!(2 * inside < plane, "{inside} {plane}");
@@ -181,40 +180,32 @@ fn circles_on_one_arm_do_not_cover_the_other() {
         points.push(DVec2::new(0.3, y));
     }
     let mesh = triangulate(&domain, points, Piece::chains(&domain, on_segments)).expect("a mesh");
-    let holds = |spacing: &dyn Spacing, claim: &str| {
-        let (_, certificate) = judged(&domain, spacing, &mesh, 1.0);
-        certificate.check(claim).expect("a check").holds
-    };
-    assert!(holds(&Uniform(0.35), "coverage") && !holds(&Constant(0.35), "coverage"));
+    let check = |case: Case, claim: Claim| certificate(&case, &mesh).check(claim).expect("a check").clone();
+    let plane = |size: f64, claim: Claim| check(constant(&domain, Uniform(size)), claim);
+    let inside = |size: f64, claim: Claim| check(constant(&domain, Constant(size)), claim);
+    assert!(plane(0.35, Claim::Coverage).holds && !inside(0.35, Claim::Coverage).holds);
     // The two upper corners of the gap are 0.02 apart in the plane, and nobody minds inside.
-    assert!(!holds(&Uniform(0.1), "packing-disjoint") && !holds(&Uniform(0.1), "nn-vertex-lower"));
+    assert!(!plane(0.1, Claim::PackingDisjoint).holds && !plane(0.1, Claim::NnVertexLower).holds);
     // Those at its bottom are too near in both senses.
-    assert!(!holds(&Constant(0.1), "packing-disjoint") && !holds(&Constant(0.1), "nn-vertex-lower"));
-    assert!(holds(&Uniform(0.02), "packing-disjoint") && holds(&Constant(0.02), "packing-disjoint"));
-    let broken = |spacing: &dyn Spacing, claim: &str| {
-        let (_, certificate) = judged(&domain, spacing, &mesh, 1.0);
-        certificate.check(claim).expect("a check").broken
-    };
-    for claim in ["packing-disjoint", "nn-vertex-lower"] {
-        assert!(broken(&Constant(0.1), claim) < broken(&Uniform(0.1), claim), "{claim}");
+    assert!(!inside(0.1, Claim::PackingDisjoint).holds && !inside(0.1, Claim::NnVertexLower).holds);
+    assert!(plane(0.02, Claim::PackingDisjoint).holds && inside(0.02, Claim::PackingDisjoint).holds);
+    for claim in [Claim::PackingDisjoint, Claim::NnVertexLower] {
+        assert!(inside(0.1, claim).broken < plane(0.1, claim).broken, "{claim}");
     }
 }
 
 #[test]
 fn the_judge_sees_what_is_too_coarse_or_too_dense() {
     let domain = named("two-arms");
-    let f = prepared(&domain, "lfs:geodesic").function;
-    let mesh = mesh(&domain, f.as_ref(), &[], C_B).expect("a mesh");
-    let holds = |c_b: f64, claim: &str| {
-        judged(&domain, f.as_ref(), &mesh, c_b)
-            .1
-            .check(claim)
-            .expect("a check")
-            .holds
+    let case = case(&domain, "lfs:geodesic");
+    let mesh = bitten(&case);
+    let holds = |c_b: f64, claim: Claim| {
+        let certificate = certificate(&with_c_b(&case, c_b), &mesh);
+        certificate.check(claim).expect("a check").holds
     };
-    assert!(holds(C_B, "coverage") && !holds(0.8 * C_B, "coverage"));
-    assert!(holds(C_B, "packing-disjoint") && !holds(1.3 * C_B, "packing-disjoint"));
-    assert!(holds(C_B, "nn-vertex-lower") && !holds(1.4 * C_B, "nn-vertex-lower"));
+    assert!(holds(C_B, Claim::Coverage) && !holds(0.8 * C_B, Claim::Coverage));
+    assert!(holds(C_B, Claim::PackingDisjoint) && !holds(1.3 * C_B, Claim::PackingDisjoint));
+    assert!(holds(C_B, Claim::NnVertexLower) && !holds(1.4 * C_B, Claim::NnVertexLower));
 }
 
 /// A box with slots cut into it from above, each with its width, depth and lean: arms close outside, with corners of any angle.

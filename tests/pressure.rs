@@ -1,12 +1,11 @@
 //! Domains and spacings under pressure, by every mesher: each ends in a certified mesh or in an error that names the place.
 //! Found cases have tests named after them; the heavy ones are in `.ci/pressure`.
 
+use biting::Case;
 use biting::domain::{Domain, Fill, InputSegment, Pslg};
 use biting::geometry::DVec2;
-use biting::mesh::Mesh;
-use biting::meshers::{Budget, Entry, MESHERS, MeshError, Parameters, Request, Trace};
-use biting::quality::{Bounds, judge};
-use biting::spacing::{self, Options, Rule, Spacing};
+use biting::meshers::{Budget, Entry, MESHERS, MeshError, Mesher, Parameters, Request, Trace};
+use biting::spacing::Spacing;
 
 const T: f64 = 0.25;
 const C_B: f64 = 0.75;
@@ -57,39 +56,27 @@ fn request() -> Request {
     }
 }
 
-fn run(entry: &Entry, domain: &Domain, spacing: &dyn Spacing) -> Result<Mesh, MeshError> {
-    let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
-    mesher.mesh(domain, spacing, &request(), &mut Trace::default())
+fn mesher(entry: &Entry) -> Box<dyn Mesher> {
+    (entry.make)(&Parameters::new()).expect("defaults are valid")
 }
 
 /// The certificate holds, by every mesher, or what went wrong before or in it.
 fn pressed(pslg: &Pslg) -> Vec<Result<(), String>> {
-    let prepared = Domain::new(pslg.clone())
+    let made = Domain::new(pslg.clone())
         .map_err(|error| error.to_string())
-        .and_then(|domain| {
-            let built = spacing::build("lfs", &domain, &Options::new(T, C_B)).map_err(|error| error.to_string())?;
-            Ok((domain, built))
-        });
-    let (domain, built) = match prepared {
-        Ok(both) => both,
+        .and_then(|domain| Case::new(domain, "lfs", T, C_B).map_err(|error| error.to_string()));
+    let case = match made {
+        Ok(case) => case,
         Err(told) => return vec![Err(told)],
     };
     let by = |entry: &Entry| {
-        let mesh = match run(entry, &domain, &*built.function) {
+        let mesher = mesher(entry);
+        let mesh = match case.mesh_as(&*mesher, &request(), &mut Trace::default()) {
             Ok(mesh) => mesh,
             Err(error @ (MeshError::Declined(_) | MeshError::Budget { .. })) => return Err(error.to_string()),
             Err(error) => panic!("{}: {error}", entry.name),
         };
-        let bounds = Bounds {
-            spacing: &*built.function,
-            c_b: C_B,
-            rule: Rule::Earlier,
-            lfs_cap: built.lfs_cap,
-            integral: None,
-            integral_error: 0.0,
-            guaranteed: &entry.guaranteed(&Parameters::new(), &domain, &*built.function, C_B),
-        };
-        let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
+        let (_, certificate) = case.judge_of(&mesh, &*mesher);
         let broken: Vec<_> = certificate.broken().collect();
         assert!(broken.is_empty(), "{}: {broken:#?}", entry.name);
         Ok(())
@@ -207,7 +194,7 @@ fn a_spacing_that_breaks_its_constant_is_told_with_both_points() {
     let square = Domain::new(rings(&[&with_top(&[(0.0, 0.0)])])).expect("a valid domain");
     for entry in MESHERS {
         for value in [0.3, 0.03, 0.01] {
-            match run(entry, &square, &Jump(value)) {
+            match mesher(entry).mesh(&square, &Jump(value), &request(), &mut Trace::default()) {
                 Err(MeshError::NotLipschitz { points, values, alpha }) => {
                     assert_eq!(values, points.map(|x| Jump(value).at(x)), "{}", entry.name);
                     assert!((values[0] - values[1]).abs() > alpha * points[0].distance(points[1]));
@@ -224,7 +211,7 @@ fn a_spacing_that_is_no_length_is_told_with_the_place() {
     let square = Domain::new(rings(&[&with_top(&[(0.0, 0.0)])])).expect("a valid domain");
     for entry in MESHERS {
         for bad in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-            match run(entry, &square, &Jump(bad)) {
+            match mesher(entry).mesh(&square, &Jump(bad), &request(), &mut Trace::default()) {
                 Err(MeshError::Spacing { value, x, .. }) => {
                     assert!(value.to_bits() == bad.to_bits() && x >= 0.5, "{}", entry.name)
                 }

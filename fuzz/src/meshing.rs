@@ -3,8 +3,8 @@
 use biting::domain::{Domain, Pslg, repair};
 use biting::geometry::DVec2;
 use biting::meshers::{Budget, MESHERS, Parameters, Request, Trace};
-use biting::quality::{Bounds, judge};
-use biting::spacing::{self, Options, Prepared, Spacing};
+use biting::Case;
+use biting::spacing::{self, Options, Spacing};
 
 /// Pairs (t, c_b): the quality of the theorem, the middle, and the coarsest.
 const PAIRS: [(f64, f64); 3] = [(0.25, 0.25), (0.3, 0.6), (0.25, 1.0)];
@@ -66,27 +66,30 @@ pub fn pslg(data: &[u8]) {
         limit_factor: LIMIT_FACTOR,
         ..Options::new(t, c_b)
     };
-    let Ok(prepared) = spacing::build(spec, &domain, &options) else {
+    let Ok(case) = Case::with(domain, spec, c_b, &options) else {
         return;
     };
-    let Ok(integral) = spacing::integrate(&*prepared.function, &domain, 0.2) else {
+    let Ok(integral) = spacing::integrate(&*case.spacing.function, &case.domain, 0.2) else {
         return;
     };
     if spacing::estimate_triangles(integral.value, c_b) > MOST_TRIANGLES {
         return;
     }
     let request = Request {
-        c_b,
         seed: 1,
-        threads: 1,
         budget: Budget {
             max_vertices: Some(10 * MOST_TRIANGLES as usize),
             ..Budget::default()
         },
+        ..case.request()
     };
     let mesher = (entry.make)(&Parameters::new()).expect("defaults are valid");
-    match mesher.mesh(&domain, &*prepared.function, &request, &mut Trace::default()) {
-        Ok(mesh) => hold(&domain, &mesh, &prepared, c_b, entry),
+    match case.mesh_as(&*mesher, &request, &mut Trace::default()) {
+        Ok(mesh) => {
+            let (_, certificate) = case.judge_of(&mesh, &*mesher);
+            let broken: Vec<_> = certificate.broken().collect();
+            assert!(broken.is_empty(), "{}: {broken:#?}", entry.name);
+        }
         Err(error) => assert!(!error.to_string().is_empty()),
     }
 }
@@ -97,21 +100,6 @@ fn smallest_feature(domain: &Domain) -> f64 {
         let at_vertices = domain.vertices().iter().map(|x| lfs.at(*x));
         at_vertices.fold(f64::INFINITY, f64::min)
     })
-}
-
-fn hold(domain: &Domain, mesh: &biting::mesh::Mesh, prepared: &Prepared, c_b: f64, entry: &biting::meshers::Entry) {
-    let bounds = Bounds {
-        rule: entry.rule(&Parameters::new()),
-        spacing: &*prepared.function,
-        c_b,
-        lfs_cap: prepared.lfs_cap,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &entry.guaranteed(&Parameters::new(), domain, &*prepared.function, c_b),
-    };
-    let (_, certificate) = judge(domain, mesh, Some(&bounds));
-    let broken: Vec<_> = certificate.broken().collect();
-    assert!(broken.is_empty(), "{}: {broken:#?}", entry.name);
 }
 
 fn graph(bytes: &mut Bytes, coarse: bool) -> Pslg {

@@ -11,6 +11,16 @@ use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{DVec2, Rect};
 
 impl Domain {
+    /// The inside of one simple polygon, its corners in order, either way round.
+    ///
+    /// # Errors
+    /// [`DomainError::Invalid`] with every fault found.
+    pub fn polygon(corners: &[[f64; 2]]) -> Result<Self, DomainError> {
+        let mut input = Pslg::new("polygon");
+        input.add_ring(corners.iter().map(|&corner| DVec2::from(corner)), 1);
+        Self::new(input)
+    }
+
     /// Checks `input`, finds its faces, and decides which are inside.
     ///
     /// Inside are the bounded faces that hold no hole point (or, for polygons with rings, those of odd parity). Segments

@@ -270,12 +270,6 @@ pub fn meeting_height(distance: f64, a: f64, b: f64) -> f64 {
     ((a - along) * (a + along)).max(0.0).sqrt()
 }
 
-/// Equation (9), the smaller of the bounds of Lemmas 6.3 and 6.4: the circles of neighbouring boundary vertices meet at
-/// least (1 − t) √((t² − 4t + 7)(1 − t²)) / 4 times the smaller radius above the boundary.
-pub fn least_meeting_height(t: f64) -> f64 {
-    (1.0 - t) * ((t * t - 4.0 * t + 7.0) * (1.0 - t * t)).max(0.0).sqrt() / 4.0
-}
-
 /// The binary exponent of a positive normal number: 2^level ≤ radius < 2^(level + 1).
 pub(super) fn level_of(radius: f64) -> i32 {
     ((radius.to_bits() >> 52) as i32 & 0x7ff) - 1023

@@ -2,7 +2,8 @@
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::spacing::{Background, Rule, Spacing};
+use crate::spacing::{Background, Spacing};
+use crate::theory::{Guarantee, Rule};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -36,53 +37,8 @@ pub struct Entry {
     pub summary: &'static str,
     /// The mesher's own parameters.
     pub parameters: &'static [Parameter],
-    /// Claims of the certificate that the method guarantees, the paper's under their hypotheses; the structural checks
-    /// but `constrained-delaunay` are guaranteed for all and not named.
-    pub guarantees: &'static [Guarantee],
     /// The mesher with the given parameters, the rest at their defaults; the error names the parameter.
     pub make: Make,
-}
-
-/// A claim of the certificate that a method guarantees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Guarantee {
-    /// Name of the check.
-    pub claim: &'static str,
-    /// Parameters and their values that it is guaranteed with, written as in [`Parameter::default`].
-    pub with: &'static [(&'static str, &'static str)],
-    /// Whether only in plain cases: no angle under 90° between neighbouring segments and, by the paper's rule, c_b + t ≤ 1.
-    pub plain: bool,
-}
-
-impl Guarantee {
-    /// Whatever the parameters.
-    pub const fn always(claim: &'static str) -> Self {
-        Self::with(claim, &[])
-    }
-
-    /// Only where parameters have these values.
-    pub const fn with(claim: &'static str, with: &'static [(&'static str, &'static str)]) -> Self {
-        Self {
-            claim,
-            with,
-            plain: false,
-        }
-    }
-
-    /// Only in plain cases: elsewhere the method meshes with a smaller spacing than it was given, or without some circles.
-    pub const fn plain(claim: &'static str) -> Self {
-        Self {
-            claim,
-            with: &[],
-            plain: true,
-        }
-    }
-}
-
-/// Whether neither the domain nor the request needs anything that the paper does not have: no angle under 90° between
-/// neighbouring segments, inside or outside, and c_b + t ≤ 1, which the rule of the later point has no need of.
-fn is_plain(domain: &Domain, spacing: &dyn Spacing, c_b: f64, rule: Rule) -> bool {
-    domain.has_no_acute_angle() && (rule == Rule::Later || c_b + c_b * spacing.lipschitz() <= 1.0)
 }
 
 impl Entry {
@@ -94,36 +50,6 @@ impl Entry {
             .collect();
         all.extend(given.clone());
         all
-    }
-
-    /// Whose spacing sets the distance of two points with the parameters given: the paper's rule where the method knows no
-    /// other.
-    pub fn rule(&self, given: &Parameters) -> Rule {
-        let named = self.complete(given).remove("rule");
-        named
-            .and_then(|rule| serde_json::from_value(rule).ok())
-            .unwrap_or_default()
-    }
-
-    /// The claims guaranteed with the parameters given, for a domain, a spacing and c_b.
-    pub fn guaranteed(
-        &self,
-        given: &Parameters,
-        domain: &Domain,
-        spacing: &dyn Spacing,
-        c_b: f64,
-    ) -> Vec<&'static str> {
-        let is_plain = is_plain(domain, spacing, c_b, self.rule(given));
-        let all = self.complete(given);
-        let has = |(name, value): &(&str, &str)| all.get(*name) == Some(&parameter_value(value));
-        let mut claims: Vec<&'static str> = Vec::new();
-        for guarantee in self.guarantees {
-            let holds = guarantee.with.iter().all(has) && (is_plain || !guarantee.plain);
-            if holds && !claims.contains(&guarantee.claim) {
-                claims.push(guarantee.claim);
-            }
-        }
-        claims
     }
 }
 
@@ -337,6 +263,18 @@ pub trait Mesher: Send + Sync {
     /// Whether all parameters are in their ranges; the error names the one that is not.
     fn check(&self) -> Result<(), String> {
         Ok(())
+    }
+
+    /// Whose spacing sets the distance of two points: the paper's rule where the method knows no other.
+    fn rule(&self) -> Rule {
+        Rule::Earlier
+    }
+
+    /// The claims of the certificate that the method guarantees with these parameters, the paper's where their hypotheses
+    /// hold. The structural claims but [`Claim::ConstrainedDelaunay`](crate::theory::Claim) hold for every method and are not
+    /// named.
+    fn guarantees(&self) -> Vec<Guarantee> {
+        Vec::new()
     }
 
     /// Meshes `domain` with edges of about c_b f. Equal input gives bit-equal output.

@@ -2,14 +2,15 @@
 
 use super::subject::{Sizes, Subject};
 use super::tally::{Tally, Worst};
-use super::{Check, min_angle_bound_deg, parallel, shape};
+use super::{Check, parallel, shape};
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::{CERTIFICATE, SAME_VERTEX_ULPS};
+use crate::theory::Claim;
 
 /// `min-angle` and `min-angle-beyond-corners`: in degrees, over the triangles that touch no vertex with an input angle
 /// under 60°. They differ in what they need.
 pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
-    let bound = min_angle_bound_deg(sizes.bounds.rule, sizes.t());
+    let bound = sizes.promises().min_angle_deg();
     let tally = over_triangles(subject, |tally, t| {
         if !subject.is_excused(t) {
             let corners = subject.mesh.corners(t);
@@ -21,12 +22,9 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
             );
         }
     });
-    let beyond = "min-angle-beyond-corners";
     [
-        tally
-            .clone()
-            .check("min-angle", "Theorem 6.8", sizes.applies("min-angle"), bound),
-        tally.check(beyond, "Theorem 6.8, §5.1", sizes.applies(beyond), bound),
+        sizes.check(tally.clone(), Claim::MinAngle, bound),
+        sizes.check(tally, Claim::MinAngleBeyondCorners, bound),
     ]
 }
 
@@ -47,7 +45,7 @@ pub fn corner_check(subject: &Subject, sizes: &Sizes) -> Check {
             );
         }
     });
-    tally.check("corner-angles", "§5.1", sizes.applies("corner-angles"), 1.0)
+    sizes.check(tally, Claim::CornerAngles, 1.0)
 }
 
 fn smallest_angle(corners: [DVec2; 3]) -> f64 {

@@ -12,13 +12,14 @@ use super::{Check, parallel, shape};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::{CENTRE_ULPS, CERTIFICATE};
-use crate::spacing::Rule;
+use crate::theory::Claim;
+use crate::theory::Rule;
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 /// `packing-disjoint`.
 pub fn packing_check(sizes: &Sizes) -> Check {
-    let c_p = sizes.bounds.c_b / (2.0 + sizes.t());
+    let c_p = sizes.packing_constant();
     let discs = sizes.circles.discs();
     let parts = parallel::map_ranges(discs.len(), |range| {
         let mut packing = Tally::new(Worst::Smallest);
@@ -33,8 +34,7 @@ pub fn packing_check(sizes: &Sizes) -> Check {
         }
         packing
     });
-    let claim = "packing-disjoint";
-    Tally::all(Worst::Smallest, parts).check(claim, "Lemma 5.4", sizes.applies(claim), 1.0)
+    sizes.check(Tally::all(Worst::Smallest, parts), Claim::PackingDisjoint, 1.0)
 }
 
 /// `coverage` of a mesh; `is_whole` where its triangles are known to make up the domain.
@@ -63,7 +63,7 @@ fn circles_check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
         covering
     });
     let covering = Tally::all(Worst::Largest, parts).join(along_segments(subject, sizes));
-    let coverage = covering.check("coverage", "Theorem 5.5", sizes.applies("coverage"), 0.0);
+    let coverage = sizes.check(covering, Claim::Coverage, 0.0);
     if coverage.holds {
         Check { at: None, ..coverage }
     } else {

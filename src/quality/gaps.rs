@@ -60,13 +60,12 @@ struct Gaps<'a> {
 
 impl<'a> Gaps<'a> {
     fn new(subject: &'a Subject<'a>, sizes: &'a Sizes<'a>) -> Self {
-        let (c_b, t) = (sizes.bounds.c_b, sizes.t());
-        let c_p = c_b / (2.0 + t);
+        let c_p = sizes.packing_constant();
         Self {
             subject,
             sizes,
             c_p,
-            share: c_p / (c_b * (1.0 + CERTIFICATE)),
+            share: c_p / (sizes.bounds.c_b * (1.0 + CERTIFICATE)),
         }
     }
 
@@ -162,20 +161,16 @@ mod tests {
     use crate::mesh::Mesh;
     use crate::meshers::biting::{Biting, Corners, HeadOn, Order};
     use crate::meshers::{Budget, Mesher, Request, Trace};
-    use crate::quality::{Bounds, judge};
-    use crate::spacing::{self, Options, Rule, Spacing};
+    use crate::quality::judge;
+    use crate::quality::tests::bounds;
+    use crate::spacing::{self, Options, Spacing};
+    use crate::theory::Rule;
 
     fn beta(domain: &Domain, mesh: &Mesh, spacing: &dyn Spacing, c_b: f64) -> f64 {
-        let bounds = Bounds {
-            spacing,
-            c_b,
-            rule: Rule::Earlier,
-            lfs_cap: true,
-            integral: None,
-            integral_error: 0.0,
-            guaranteed: &[],
-        };
-        judge(domain, mesh, Some(&bounds)).0.beta.expect("there is a spacing")
+        judge(domain, mesh, Some(&bounds(spacing, c_b)))
+            .0
+            .beta
+            .expect("there is a spacing")
     }
 
     /// Definition 4.1 at one point, by a loop over all vertices.
@@ -235,7 +230,7 @@ mod tests {
                 let found = beta(&domain, &mesh, spacing, c_b);
                 let dense = sampled(&domain, &mesh, spacing, c_b);
                 let t = c_b * spacing.lipschitz();
-                let bound = (1.0 + t) / (1.0 - t);
+                let bound = crate::theory::beta(t);
                 assert!(found >= dense - 1e-9, "{name} {order:?}: {found} under {dense}");
                 assert!(found <= dense + 0.03, "{name} {order:?}: {found} far above {dense}");
                 assert!(found <= bound * (1.0 + 1e-8), "{name} {order:?}: {found} above {bound}");

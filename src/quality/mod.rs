@@ -80,7 +80,6 @@ mod coverage;
 mod discs;
 mod gaps;
 mod parallel;
-mod promises;
 mod protection;
 mod reached;
 mod shape;
@@ -96,7 +95,8 @@ pub use shape::{angles_deg, circumcentre};
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::spacing::{FLAT_T, GEODESIC_T, Rule, Spacing};
+use crate::spacing::{Integral, Spacing};
+use crate::theory::{Claim, Hypotheses, Rule};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -193,8 +193,8 @@ impl Statistics {
 /// A check of the certificate, as data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Check {
-    /// Short name, in kebab case, unique: `min-angle`, `packing-disjoint`, …
-    pub claim: String,
+    /// What it says.
+    pub claim: Claim,
     /// Where the paper says so; empty for structural checks.
     pub lemma: String,
     /// Whether the hypotheses hold and the method guarantees it; a check that does not apply is a measurement.
@@ -243,98 +243,24 @@ pub struct Bounds<'a> {
     pub rule: Rule,
     /// Whether f ≤ lfs is known.
     pub lfs_cap: bool,
-    /// ∫_Ω dA / f²; without it there are no bounds on the number of vertices.
-    pub integral: Option<f64>,
-    /// Relative error of `integral`, which the bounds give way by.
-    pub integral_error: f64,
+    /// ∫_Ω dA / f², by whose error the bounds on the number of vertices give way; without it there are none.
+    pub integral: Option<Integral>,
     /// Claims the mesher guarantees where their hypotheses hold.
-    pub guaranteed: &'a [&'a str],
+    pub guaranteed: &'a [Claim],
 }
 
-/// What the paper's theorems assume, stated or not.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hypotheses {
-    /// c_b times the Lipschitz constant of the spacing as evaluated.
-    pub t: f64,
-    /// Biting constant.
-    pub c_b: f64,
-    /// Whose spacing sets the distance of two points.
-    pub rule: Rule,
-    /// Whether f ≤ lfs.
-    pub lfs_cap: bool,
-    /// Smallest angle between neighbouring segments on any side, inside or out, degrees; 360 if none.
-    pub smallest_segment_angle_deg: f64,
-    /// Input segments bitten at their two vertices only, whose circles meet lower than (9).
-    pub low_head_on: usize,
-    /// Whether every vertex with an angle under 90° inside has no other angle inside.
-    pub single_corners: bool,
-    /// Whether f is Lipschitz in distances inside the domain, and lfs is meant so.
-    pub is_geodesic: bool,
-    /// Whether a vertex with an angle under 90° inside, which has no circle where corners are cut off, may hide points: whether it
-    /// has an angle under 180° outside.
-    pub corners_hide: bool,
-}
-
-impl Hypotheses {
-    /// Of a domain, bounds, and what the mesh shows at the boundary.
-    pub fn of(domain: &Domain, bounds: &Bounds, low_head_on: usize) -> Self {
-        Self {
-            t: bounds.c_b * bounds.spacing.lipschitz(),
-            c_b: bounds.c_b,
-            rule: bounds.rule,
-            lfs_cap: bounds.lfs_cap,
-            smallest_segment_angle_deg: domain.smallest_segment_angle_deg(),
-            low_head_on,
-            single_corners: has_single_corners(domain),
-            is_geodesic: bounds.spacing.is_geodesic(),
-            corners_hide: corners_hide(domain),
-        }
-    }
-
-    /// What §6 assumes of domain and t.
-    fn of_section_6(&self) -> bool {
-        self.vertices_apart() && self.t <= 1.0 / 3.0 && self.has_no_small_angle()
-    }
-
-    /// What Theorem 6.8 needs, stated or not; by the rule of the later point, any t < 1 will do.
-    fn of_theorem_6_8(&self) -> bool {
-        match self.rule {
-            Rule::Earlier => self.of_section_6() && self.low_head_on == 0,
-            Rule::Later => self.vertices_apart() && self.t < 1.0 && self.has_no_small_angle(),
-        }
-    }
-
-    /// Circles around input vertices hold no other input vertex (Lemma 5.1).
-    fn vertices_apart(&self) -> bool {
-        self.lfs_cap && self.c_b <= 1.0
-    }
-
-    /// Whether corners can be cut off so that the angle bound holds beyond them: to the sizes cut off there, the spacing
-    /// must come down with t.
-    fn corners_can_be_cut(&self) -> bool {
-        let is_plain = (self.rule == Rule::Later || self.c_b + self.t <= 1.0) && self.has_no_small_angle();
-        let steepest = self.rule.of(1.0 / 3.0, 1.0 / 2.0);
-        self.vertices_apart() && self.t <= steepest && (self.t >= FLAT_T || is_plain)
-    }
-
-    fn has_no_small_angle(&self) -> bool {
-        self.smallest_segment_angle_deg >= 90.0 - crate::geometry::tolerance::RIGHT_ANGLE_DEG
-    }
-
-    /// Whether a claim follows from them for a mesh made by biting.
-    pub fn imply(&self, claim: &str) -> bool {
-        if self.is_geodesic && (self.rule == Rule::Later || self.t > GEODESIC_T || self.corners_hide) {
-            return false;
-        }
-        match claim {
-            "packing-disjoint" | "vertices-upper" => self.vertices_apart(),
-            "coverage" | "vertices-lower" => self.t < 1.0,
-            "boundary-height" => self.rule == Rule::Earlier && self.of_section_6(),
-            "min-angle" => self.of_theorem_6_8(),
-            "min-angle-beyond-corners" => self.corners_can_be_cut(),
-            "corner-angles" => self.single_corners,
-            _ => self.vertices_apart() && self.t < 1.0,
-        }
+/// The hypotheses that a domain, a spacing and c_b meet, and what the mesh shows at the boundary.
+pub(crate) fn hypotheses(domain: &Domain, bounds: &Bounds, low_head_on: usize) -> Hypotheses {
+    Hypotheses {
+        t: bounds.c_b * bounds.spacing.lipschitz(),
+        c_b: bounds.c_b,
+        rule: bounds.rule,
+        lfs_cap: bounds.lfs_cap,
+        smallest_segment_angle_deg: domain.smallest_segment_angle_deg(),
+        low_head_on,
+        single_corners: has_single_corners(domain),
+        is_geodesic: bounds.spacing.is_geodesic(),
+        corners_hide: corners_hide(domain),
     }
 }
 
@@ -353,11 +279,6 @@ fn has_single_corners(domain: &Domain) -> bool {
     })
 }
 
-/// Theorem 6.8: asin(1/2 − t) in degrees, 0 for t ≥ 1/2; asin((1 − t) / 2) by the rule of the later point.
-pub fn min_angle_bound_deg(rule: Rule, t: f64) -> f64 {
-    promises::Promises { rule, t }.least_sine().asin().to_degrees()
-}
-
 /// Statistics and certificate of a mesh of `domain`; `bounds` adds what needs a spacing.
 ///
 /// The mesh may come from anywhere. The work is shared among rayon's threads; the result does not depend on them.
@@ -373,7 +294,7 @@ fn certificate(subject: &subject::Subject) -> Certificate {
     if let Some(sizes) = &subject.sizes {
         checks.push(coverage::packing_check(sizes));
         checks.push(coverage::coverage_check(subject, sizes, is_whole));
-        checks.push(sizes.heights.check(sizes.applies("boundary-height")));
+        checks.push(sizes.heights.check(sizes.applies(Claim::BoundaryHeight)));
         checks.extend(angle::checks(subject, sizes));
         checks.push(angle::corner_check(subject, sizes));
         checks.extend(spread::checks(subject, sizes));
@@ -393,7 +314,7 @@ impl Certificate {
     }
 
     /// The check of that name.
-    pub fn check(&self, claim: &str) -> Option<&Check> {
+    pub fn check(&self, claim: Claim) -> Option<&Check> {
         self.checks.iter().find(|check| check.claim == claim)
     }
 }

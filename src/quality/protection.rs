@@ -11,9 +11,11 @@ use super::boundary::{Boundary, NO_SEGMENT};
 use super::tally::{Tally, Worst};
 use super::{Bounds, Check};
 use crate::domain::Domain;
-use crate::geometry::near::{least_meeting_height, meeting_height};
+use crate::geometry::near::meeting_height;
 use crate::geometry::tolerance::CERTIFICATE;
 use crate::mesh::{Adjacency, Mesh};
+use crate::theory::Claim;
+use crate::theory::least_meeting_height;
 
 /// The heights at which neighbouring boundary circles meet, over the smaller of their radii.
 pub struct Heights {
@@ -64,8 +66,6 @@ impl Heights {
 
     /// `boundary-height`.
     pub fn check(&self, applies: bool) -> Check {
-        self.protected
-            .clone()
-            .check("boundary-height", "Lemmas 6.3 and 6.4", applies, self.bound)
+        self.protected.clone().check(Claim::BoundaryHeight, applies, self.bound)
     }
 }

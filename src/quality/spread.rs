@@ -6,7 +6,9 @@ use super::tally::{Tally, Worst};
 use super::{Check, parallel};
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::{CENTRE_ULPS, CERTIFICATE};
-use std::f64::consts::{PI, TAU};
+use crate::spacing::Integral;
+use crate::theory::Claim;
+use std::f64::consts::TAU;
 
 /// `nn-vertex-lower`, `nn-vertex-upper`, `nn-point-lower`, `nn-point-upper` and, with an integral, `vertices-lower` and
 /// `vertices-upper`.
@@ -42,10 +44,10 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> Vec<Check> {
     let [low, high] = at_midpoints;
     let [low_too, high_too] = at_circumcentres;
     let mut checks = vertex
-        .checks(at_vertices, ["nn-vertex-lower", "nn-vertex-upper"], "Lemma 5.7", sizes)
+        .checks(at_vertices, [Claim::NnVertexLower, Claim::NnVertexUpper], sizes)
         .to_vec();
     let at_points = [low.join(low_too), high.join(high_too)];
-    checks.extend(point.checks(at_points, ["nn-point-lower", "nn-point-upper"], "Lemma 5.8", sizes));
+    checks.extend(point.checks(at_points, [Claim::NnPointLower, Claim::NnPointUpper], sizes));
     if let Some(integral) = sizes.bounds.integral {
         checks.extend(vertex_counts(subject, sizes, integral));
     }
@@ -83,25 +85,24 @@ impl Between {
         [Tally::all(Worst::Smallest, lower), Tally::all(Worst::Largest, upper)]
     }
 
-    fn checks(&self, [lower, upper]: [Tally; 2], claims: [&str; 2], lemma: &str, sizes: &Sizes) -> [Check; 2] {
+    fn checks(&self, [lower, upper]: [Tally; 2], claims: [Claim; 2], sizes: &Sizes) -> [Check; 2] {
         [
-            lower.check(claims[0], lemma, sizes.applies(claims[0]), self.low),
-            upper.check(claims[1], lemma, sizes.applies(claims[1]), self.high),
+            sizes.check(lower, claims[0], self.low),
+            sizes.check(upper, claims[1], self.high),
         ]
     }
 }
 
 /// Both bounds on the number of vertices; the integral's error is granted.
-fn vertex_counts(subject: &Subject, sizes: &Sizes, integral: f64) -> [Check; 2] {
-    let (t, c_b) = (sizes.t(), sizes.bounds.c_b);
-    let error = sizes.bounds.integral_error;
-    let fewest = integral * (1.0 - error) / (sizes.promises().most_eaten() * c_b * c_b);
-    let most = 4.0 * (1.0 + t).powi(2) * integral * (1.0 + error) / (PI * c_b * c_b);
+fn vertex_counts(subject: &Subject, sizes: &Sizes, integral: Integral) -> [Check; 2] {
+    let Integral { value, error, .. } = integral;
+    let integral = [value * (1.0 - error), value * (1.0 + error)];
+    let [fewest, most] = sizes.promises().vertices(sizes.bounds.c_b, integral);
     let vertices = subject.mesh.points.len() as f64;
     let shares = packing_shares(subject, sizes);
-    let check = |claim: &str, lemma: &str, worst: f64, bound: f64, holds: bool| Check {
-        claim: claim.to_string(),
-        lemma: lemma.to_string(),
+    let check = |claim: Claim, worst: f64, bound: f64, holds: bool| Check {
+        claim,
+        lemma: claim.lemma().into(),
         applies: sizes.applies(claim),
         worst: Some(worst),
         bound: Some(bound),
@@ -111,21 +112,15 @@ fn vertex_counts(subject: &Subject, sizes: &Sizes, integral: f64) -> [Check; 2] 
         witnesses: Vec::new(),
     };
     [
-        check(
-            "vertices-lower",
-            "from Theorem 5.5",
-            vertices,
-            fewest,
-            vertices >= fewest,
-        ),
-        check("vertices-upper", "from Lemma 5.4", shares, most, shares <= most),
+        check(Claim::VerticesLower, vertices, fewest, vertices >= fewest),
+        check(Claim::VerticesUpper, shares, most, shares <= most),
     ]
 }
 
 /// The sum over vertices of the share of the packing circle that surely lies in the domain.
 fn packing_shares(subject: &Subject, sizes: &Sizes) -> f64 {
     let domain = subject.domain;
-    let c_p = sizes.bounds.c_b / (2.0 + sizes.t());
+    let c_p = sizes.packing_constant();
     let mut input = vec![NO_SEGMENT; subject.mesh.points.len()];
     for (v, found) in (0..).zip(&subject.boundary.vertex) {
         if let Some(k) = found {

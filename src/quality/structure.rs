@@ -8,6 +8,7 @@ use crate::geometry::DVec2;
 use crate::geometry::predicates::{in_circle, orient2d};
 use crate::geometry::tolerance::AREA;
 use crate::mesh::Edge;
+use crate::theory::Claim;
 
 /// All structural checks.
 pub struct Structure {
@@ -72,7 +73,7 @@ fn positive_orientation(subject: &Subject) -> Check {
         }
         tally
     });
-    Tally::all(Worst::Smallest, parts).check("positive-orientation", "", true, 0.0)
+    Tally::all(Worst::Smallest, parts).check(Claim::PositiveOrientation, true, 0.0)
 }
 
 fn area(subject: &Subject) -> Check {
@@ -90,7 +91,7 @@ fn area(subject: &Subject) -> Check {
     Check {
         at: None,
         witnesses: Vec::new(),
-        ..tally.check("area", "", true, allowed)
+        ..tally.check(Claim::Area, true, allowed)
     }
 }
 
@@ -104,12 +105,12 @@ fn area_beside_segments(subject: &Subject) -> f64 {
 }
 
 /// A check that counts places that should not be there: the worst is how many.
-fn none_of(claim: &str, places: impl Iterator<Item = DVec2>) -> Check {
+fn none_of(claim: Claim, places: impl Iterator<Item = DVec2>) -> Check {
     let mut tally = Tally::new(Worst::Largest);
     for place in places {
         tally.see(1.0, place, true);
     }
-    let check = tally.check(claim, "", true, 0.0);
+    let check = tally.check(claim, true, 0.0);
     Check {
         worst: Some(check.broken as f64),
         ..check
@@ -123,7 +124,7 @@ fn vertices_used(subject: &Subject) -> Check {
         used[*corner as usize] = true;
     }
     none_of(
-        "vertices-used",
+        Claim::VerticesUsed,
         points.iter().zip(used).filter(|(_, used)| !used).map(|(p, _)| *p),
     )
 }
@@ -131,13 +132,13 @@ fn vertices_used(subject: &Subject) -> Check {
 fn input_vertices(subject: &Subject) -> Check {
     let pairs = subject.domain.vertices().iter().zip(&subject.boundary.vertex);
     none_of(
-        "input-vertices",
+        Claim::InputVertices,
         pairs.filter(|(_, found)| found.is_none()).map(|(p, _)| *p),
     )
 }
 
 fn input_segments(subject: &Subject) -> Check {
-    none_of("input-segments", subject.boundary.lost.iter().map(|(_, end)| *end))
+    none_of(Claim::InputSegments, subject.boundary.lost.iter().map(|(_, end)| *end))
 }
 
 fn manifold_edges(subject: &Subject) -> Check {
@@ -145,7 +146,7 @@ fn manifold_edges(subject: &Subject) -> Check {
     for (e, edge) in subject.adjacency.edges().iter().enumerate() {
         tally.see(f64::from(edge.uses), subject.midpoint(e), !edge.is_manifold());
     }
-    let check = tally.check("manifold-edges", "", true, 2.0);
+    let check = tally.check(Claim::ManifoldEdges, true, 2.0);
     if check.holds {
         Check { at: None, ..check }
     } else {
@@ -156,14 +157,14 @@ fn manifold_edges(subject: &Subject) -> Check {
 fn boundary_on_segments(subject: &Subject) -> Check {
     let edges = subject.adjacency.edges().iter().enumerate();
     let strays = edges.filter(|(e, edge)| edge.is_boundary() && subject.boundary.segment[*e] == NO_SEGMENT);
-    none_of("boundary-on-segments", strays.map(|(e, _)| subject.midpoint(e)))
+    none_of(Claim::BoundaryOnSegments, strays.map(|(e, _)| subject.midpoint(e)))
 }
 
 fn constrained_delaunay(subject: &Subject) -> Check {
     let claimed = subject
         .sizes
         .as_ref()
-        .is_some_and(|sizes| sizes.bounds.guaranteed.contains(&"constrained-delaunay"));
+        .is_some_and(|sizes| sizes.bounds.guaranteed.contains(&Claim::ConstrainedDelaunay));
     let edges = subject.adjacency.edges();
     let parts = parallel::map_ranges(edges.len(), |range| {
         let mut tally = Tally::new(Worst::Largest);
@@ -174,7 +175,7 @@ fn constrained_delaunay(subject: &Subject) -> Check {
         }
         tally
     });
-    let check = Tally::all(Worst::Largest, parts).check("constrained-delaunay", "", claimed, 0.0);
+    let check = Tally::all(Worst::Largest, parts).check(Claim::ConstrainedDelaunay, claimed, 0.0);
     if check.holds {
         Check { at: None, ..check }
     } else {

@@ -2,14 +2,15 @@
 
 use super::boundary::Boundary;
 use super::discs::DiscTree;
-use super::promises::Promises;
 use super::protection::Heights;
 use super::reached::Reached;
-use super::{Bounds, Hypotheses, parallel, shape};
+use super::tally::Tally;
+use super::{Bounds, Check, hypotheses, parallel, shape};
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::CERTIFICATE;
 use crate::mesh::{Adjacency, Mesh};
+use crate::theory::{Claim, Hypotheses, Promises, packing_constant};
 
 /// A mesh under judgement.
 pub struct Subject<'a> {
@@ -129,7 +130,7 @@ impl<'a> Sizes<'a> {
         let heights = Heights::measure(domain, mesh, adjacency, boundary, &bounds, &at_vertex);
         Self {
             bounds,
-            hypotheses: Hypotheses::of(domain, &bounds, heights.low_head_on),
+            hypotheses: hypotheses(domain, &bounds, heights.low_head_on),
             at_vertex,
             at_midpoint,
             circumcentres,
@@ -165,7 +166,17 @@ impl<'a> Sizes<'a> {
     }
 
     /// Whether a claim is guaranteed: by the method, where the hypotheses hold.
-    pub fn applies(&self, claim: &str) -> bool {
+    pub fn applies(&self, claim: Claim) -> bool {
         self.bounds.guaranteed.contains(&claim) && self.hypotheses.imply(claim)
+    }
+
+    /// The check of a claim about the spacing by what a tally saw.
+    pub fn check(&self, tally: Tally, claim: Claim, bound: f64) -> Check {
+        tally.check(claim, self.applies(claim), bound)
+    }
+
+    /// c_p.
+    pub fn packing_constant(&self) -> f64 {
+        packing_constant(self.bounds.c_b, self.t())
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Check, WITNESSES};
 use crate::geometry::DVec2;
+use crate::theory::Claim;
 
 /// Which values of a check are bad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,10 +67,10 @@ impl Tally {
     }
 
     /// The check; it holds if nothing broke it.
-    pub fn check(self, claim: &str, lemma: &str, applies: bool, bound: f64) -> Check {
+    pub fn check(self, claim: Claim, applies: bool, bound: f64) -> Check {
         Check {
-            claim: claim.to_string(),
-            lemma: lemma.to_string(),
+            claim,
+            lemma: claim.lemma().into(),
             applies,
             worst: self.worst.map(|(value, _)| value).filter(|value| value.is_finite()),
             bound: Some(bound).filter(|bound| bound.is_finite()),
@@ -100,11 +101,11 @@ mod tests {
             // In parts as in one.
             let mut later = Tally::new(which);
             later.see(worst, at(9.0), false);
-            let parts = Tally::all(which, [tally.clone(), later.clone()]).check("", "", true, 0.0);
-            let whole = tally.check("claim", "lemma", true, 5.0);
+            let parts = Tally::all(which, [tally.clone(), later.clone()]).check(Claim::Area, true, 0.0);
+            let whole = tally.check(Claim::MinAngle, true, 5.0);
             assert_eq!((whole.worst, whole.at), (Some(worst), Some([place, 0.0])));
             assert_eq!((parts.worst, parts.at), (whole.worst, whole.at));
-            assert_eq!((whole.claim.as_str(), whole.lemma.as_str()), ("claim", "lemma"));
+            assert_eq!((whole.claim, whole.lemma.as_str()), (Claim::MinAngle, "Theorem 6.8"));
             assert!(whole.holds && whole.applies && whole.bound == Some(5.0) && whole.witnesses.is_empty());
         }
     }
@@ -122,16 +123,16 @@ mod tests {
             vec![of(0..5), of(5..12)],
             vec![of(0..0), of(0..11), of(11..12)],
         ] {
-            let check = Tally::all(Worst::Largest, parts).check("", "", false, f64::INFINITY);
+            let check = Tally::all(Worst::Largest, parts).check(Claim::Area, false, f64::INFINITY);
             assert_eq!((check.broken, &check.witnesses), (11, &first));
             assert!(!check.holds && !check.applies && check.bound.is_none());
         }
-        assert_eq!(of(0..12).check("", "", true, 0.0).witnesses, first);
-        let nothing = Tally::new(Worst::Largest).check("", "", true, 0.0);
+        assert_eq!(of(0..12).check(Claim::Area, true, 0.0).witnesses, first);
+        let nothing = Tally::new(Worst::Largest).check(Claim::Area, true, 0.0);
         assert!(nothing.holds && nothing.worst.is_none() && nothing.at.is_none());
         let mut endless = Tally::new(Worst::Largest);
         endless.see(f64::INFINITY, at(3.0), true);
-        let endless = endless.check("", "", true, 0.0);
+        let endless = endless.check(Claim::Area, true, 0.0);
         assert_eq!((endless.worst, endless.at), (None, Some([3.0, 0.0])));
     }
 }

@@ -4,6 +4,7 @@ use crate::domain::Pslg;
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::CERTIFICATE;
 use crate::mesh::Piece;
+use crate::theory::Claim;
 use proptest::prelude::*;
 
 mod bounds_by_hand;
@@ -40,37 +41,40 @@ const UNIFORM: Linear = Linear {
     slope: DVec2::ZERO,
 };
 
-const CLAIMS: [&str; 12] = [
-    "packing-disjoint",
-    "coverage",
-    "boundary-height",
-    "min-angle",
-    "min-angle-beyond-corners",
-    "corner-angles",
-    "nn-vertex-lower",
-    "nn-vertex-upper",
-    "nn-point-lower",
-    "nn-point-upper",
-    "vertices-lower",
-    "vertices-upper",
+const CLAIMS: [Claim; 12] = [
+    Claim::PackingDisjoint,
+    Claim::Coverage,
+    Claim::BoundaryHeight,
+    Claim::MinAngle,
+    Claim::MinAngleBeyondCorners,
+    Claim::CornerAngles,
+    Claim::NnVertexLower,
+    Claim::NnVertexUpper,
+    Claim::NnPointLower,
+    Claim::NnPointUpper,
+    Claim::VerticesLower,
+    Claim::VerticesUpper,
 ];
 
 /// The paper's and the one structural claim that not all methods make.
-const GUARANTEED: [&str; 13] = {
-    let mut all = ["constrained-delaunay"; 13];
+const GUARANTEED: [Claim; 13] = {
+    let mut all = [Claim::ConstrainedDelaunay; 13];
     all.split_at_mut(1).1.copy_from_slice(&CLAIMS);
     all
 };
 
 /// Everything guaranteed, c_b as given.
-fn bounds(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
+pub(super) fn bounds(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
     Bounds {
         spacing,
         c_b,
         rule: Rule::Earlier,
         lfs_cap: true,
-        integral: Some(1.0),
-        integral_error: 0.0,
+        integral: Some(Integral {
+            value: 1.0,
+            error: 0.0,
+            evaluations: 0,
+        }),
         guaranteed: &GUARANTEED,
     }
 }
@@ -108,12 +112,12 @@ fn fan(middle: DVec2) -> Mesh {
 }
 
 /// The claims that do not hold.
-fn broken(domain: &Domain, mesh: &Mesh, bounds: Option<&Bounds>) -> Vec<String> {
+fn broken(domain: &Domain, mesh: &Mesh, bounds: Option<&Bounds>) -> Vec<Claim> {
     let (_, certificate) = judge(domain, mesh, bounds);
     let broken: Vec<_> = certificate.checks.iter().filter(|check| !check.holds).collect();
     assert!(broken.iter().all(|check| check.broken > 0), "{broken:?}");
     assert_eq!(certificate.holds, broken.iter().all(|check| !check.applies));
-    broken.iter().map(|check| check.claim.clone()).collect()
+    broken.iter().map(|check| check.claim).collect()
 }
 
 #[test]
@@ -125,38 +129,46 @@ fn a_good_mesh_has_a_whole_certificate() {
         certificate
             .checks
             .iter()
-            .all(|check| check.holds && check.applies && check.worst.is_some() == (check.claim != "corner-angles"))
+            .all(|check| check.holds && check.applies && check.worst.is_some() == (check.claim != Claim::CornerAngles))
     );
-    let worst = |claim: &str| certificate.check(claim).unwrap().worst.unwrap();
+    let worst = |claim: Claim| certificate.check(claim).unwrap().worst.unwrap();
     let near = |x: f64, y: f64| (x - y).abs() < 1e-12;
-    assert!(near(worst("packing-disjoint"), 0.5f64.sqrt() / 0.7));
-    assert_eq!(worst("coverage"), 0.0);
-    assert!(near(worst("min-angle"), 45.0));
-    assert!(near(worst("nn-vertex-lower"), 0.5f64.sqrt()) && near(worst("nn-vertex-upper"), 0.5f64.sqrt()));
-    assert!(near(worst("nn-point-lower"), 0.5f64.sqrt() / 2.0) && near(worst("nn-point-upper"), 0.5));
+    assert!(near(worst(Claim::PackingDisjoint), 0.5f64.sqrt() / 0.7));
+    assert_eq!(worst(Claim::Coverage), 0.0);
+    assert!(near(worst(Claim::MinAngle), 45.0));
+    assert!(near(worst(Claim::NnVertexLower), 0.5f64.sqrt()) && near(worst(Claim::NnVertexUpper), 0.5f64.sqrt()));
+    assert!(near(worst(Claim::NnPointLower), 0.5f64.sqrt() / 2.0) && near(worst(Claim::NnPointUpper), 0.5));
     // Four corners with a quarter of their packing circles inside, and the middle.
-    assert!(near(worst("vertices-upper"), 2.0) && near(worst("vertices-lower"), 5.0));
+    assert!(near(worst(Claim::VerticesUpper), 2.0) && near(worst(Claim::VerticesLower), 5.0));
 }
 
 #[test]
 fn each_bound_breaks_where_it_should() {
     let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
     for (c_b, expected) in [
-        (0.45, vec!["coverage"]),
-        (0.3, vec!["coverage", "nn-vertex-upper"]),
-        (0.25, vec!["coverage", "nn-vertex-upper", "vertices-lower"]),
+        (0.45, vec![Claim::Coverage]),
+        (0.3, vec![Claim::Coverage, Claim::NnVertexUpper]),
+        (0.25, vec![Claim::Coverage, Claim::NnVertexUpper, Claim::VerticesLower]),
         (
             0.11,
-            vec!["coverage", "nn-vertex-upper", "nn-point-upper", "vertices-lower"],
+            vec![
+                Claim::Coverage,
+                Claim::NnVertexUpper,
+                Claim::NnPointUpper,
+                Claim::VerticesLower,
+            ],
         ),
-        (0.75, vec!["packing-disjoint", "nn-vertex-lower", "nn-point-lower"]),
+        (
+            0.75,
+            vec![Claim::PackingDisjoint, Claim::NnVertexLower, Claim::NnPointLower],
+        ),
         (
             1.4,
             vec![
-                "packing-disjoint",
-                "nn-vertex-lower",
-                "nn-point-lower",
-                "vertices-upper",
+                Claim::PackingDisjoint,
+                Claim::NnVertexLower,
+                Claim::NnPointLower,
+                Claim::VerticesUpper,
             ],
         ),
     ] {
@@ -167,7 +179,7 @@ fn each_bound_breaks_where_it_should() {
         );
     }
     let flat = broken(&square, &fan(p(0.5, 0.2)), Some(&bounds(&UNIFORM, 0.6)));
-    assert!(flat.contains(&"min-angle".to_string()), "{flat:?}");
+    assert!(flat.contains(&Claim::MinAngle), "{flat:?}");
 }
 
 #[test]
@@ -189,7 +201,7 @@ fn a_hole_in_the_cover_is_seen_from_circles_alone() {
     let domain = domain(&ring, &[]);
     let check = |c_b: f64| {
         let (_, certificate) = judge(&domain, &hollow, Some(&bounds(&UNIFORM, c_b)));
-        certificate.check("coverage").unwrap().clone()
+        certificate.check(Claim::Coverage).unwrap().clone()
     };
     let open = check(0.3);
     assert!(!open.holds && open.worst.unwrap() > 0.5 && open.at.is_some());
@@ -204,18 +216,21 @@ fn each_structural_check_breaks_where_it_should() {
         change(&mut mesh);
         broken(&square, &mesh, None)
     };
-    assert_eq!(broken(&square, &good, None), [""; 0]);
+    assert_eq!(broken(&square, &good, None), []);
     let flipped = wrong(&|mesh| mesh.triangles[0] = [1, 0, 4]);
-    assert_eq!(flipped, ["positive-orientation", "area", "manifold-edges"]);
+    assert_eq!(flipped, [Claim::PositiveOrientation, Claim::Area, Claim::ManifoldEdges]);
     let missing = wrong(&|mesh| mesh.triangles.truncate(3));
-    assert_eq!(missing, ["area", "input-segments", "boundary-on-segments"]);
-    assert_eq!(wrong(&|mesh| mesh.points.push(p(0.3, 0.3))), ["vertices-used"]);
+    assert_eq!(missing, [Claim::Area, Claim::InputSegments, Claim::BoundaryOnSegments]);
+    assert_eq!(wrong(&|mesh| mesh.points.push(p(0.3, 0.3))), [Claim::VerticesUsed]);
     let moved = wrong(&|mesh| mesh.points[2] = p(1.0, 1.0 + 1e-12));
-    assert_eq!(moved, ["input-vertices", "input-segments", "boundary-on-segments"]);
+    assert_eq!(
+        moved,
+        [Claim::InputVertices, Claim::InputSegments, Claim::BoundaryOnSegments]
+    );
     let twice = wrong(&|mesh| mesh.triangles.push([0, 1, 4]));
-    assert_eq!(twice, ["area", "manifold-edges"]);
+    assert_eq!(twice, [Claim::Area, Claim::ManifoldEdges]);
     let flat = wrong(&|mesh| mesh.points[4] = p(0.5, 0.0));
-    assert!(flat.contains(&"positive-orientation".to_string()), "{flat:?}");
+    assert!(flat.contains(&Claim::PositiveOrientation), "{flat:?}");
 }
 
 #[test]
@@ -224,10 +239,10 @@ fn segments_and_delaunay_edges_are_told_apart() {
     let long = mesh(&kite, &[[0, 1, 2], [0, 2, 3]]);
     let short = mesh(&kite, &[[0, 1, 3], [1, 2, 3]]);
     let (free, across) = (domain(&kite, &[]), domain(&kite, &[kite[0], kite[2]]));
-    assert_eq!(broken(&free, &long, None), ["constrained-delaunay"]);
-    assert_eq!(broken(&free, &short, None), [""; 0]);
-    assert_eq!(broken(&across, &long, None), [""; 0]);
-    assert_eq!(broken(&across, &short, None), ["input-segments"]);
+    assert_eq!(broken(&free, &long, None), [Claim::ConstrainedDelaunay]);
+    assert_eq!(broken(&free, &short, None), []);
+    assert_eq!(broken(&across, &long, None), []);
+    assert_eq!(broken(&across, &short, None), [Claim::InputSegments]);
 }
 
 #[test]
@@ -244,10 +259,10 @@ fn a_mesh_from_elsewhere_is_matched_by_coordinates() {
         ],
         &[[3, 2, 0], [2, 5, 0], [5, 4, 0], [4, 1, 0], [1, 3, 0]],
     );
-    assert_eq!(broken(&square, &shuffled, None), [""; 0]);
+    assert_eq!(broken(&square, &shuffled, None), []);
     assert_eq!(
         broken(&square, &Mesh::default(), None),
-        ["area", "input-vertices", "input-segments"]
+        [Claim::Area, Claim::InputVertices, Claim::InputSegments]
     );
 }
 
@@ -256,7 +271,7 @@ fn triangles_at_acute_vertices_are_excused() {
     let sliver = [p(0.0, 0.0), p(4.0, 0.0), p(4.0, 1.0)];
     let domain = domain(&sliver, &[]);
     let (statistics, certificate) = judge(&domain, &mesh(&sliver, &[[0, 1, 2]]), Some(&bounds(&UNIFORM, 0.9)));
-    let check = certificate.check("min-angle").unwrap();
+    let check = certificate.check(Claim::MinAngle).unwrap();
     assert!(check.holds && check.worst.is_none() && !check.applies, "{check:?}");
     assert_eq!(
         (certificate.excused, statistics.excused, statistics.min_angle_free_deg),
@@ -325,7 +340,7 @@ proptest! {
         let c_p = 1.0 / (2.0 + spacing.lipschitz());
         let pairs = mesh.points.iter().enumerate().flat_map(|(k, x)| mesh.points[..k].iter().map(move |y| (*x, *y)));
         let smallest = pairs.map(|(x, y)| x.distance(y) / (c_p * (spacing.at(x) + spacing.at(y)))).fold(9.0, f64::min);
-        let check = certificate.check("packing-disjoint").unwrap();
+        let check = certificate.check(Claim::PackingDisjoint).unwrap();
         prop_assert!((check.worst.unwrap() - smallest).abs() < 1e-12 && check.holds == (smallest >= 1.0 - CERTIFICATE));
         let nn = |x: DVec2| mesh.points.iter().filter(|y| **y != x).map(|y| x.distance(*y)).fold(9.0, f64::min);
         let largest = mesh.points.iter().map(|x| nn(*x) / spacing.at(*x)).fold(0.0, f64::max);
@@ -361,10 +376,10 @@ fn circles_that_meet_low_are_a_hypothesis_on_whole_segments_and_a_fault_on_cut_o
     let whole = fan(p(0.5, 0.5));
     for (c_b, low) in [(0.51, 4), (0.7, 0)] {
         let (_, certificate) = judge(&square, &whole, Some(&bounds(&UNIFORM, c_b)));
-        let check = certificate.check("boundary-height").unwrap();
+        let check = certificate.check(Claim::BoundaryHeight).unwrap();
         assert!(check.holds, "c_b = {c_b}: {check:?}");
         assert_eq!(certificate.low_head_on, low, "c_b = {c_b}");
-        assert_eq!(certificate.check("min-angle").unwrap().applies, low == 0);
+        assert_eq!(certificate.check(Claim::MinAngle).unwrap().applies, low == 0);
     }
     // The lower side cut in its middle: circles of radius 0.26 around its three vertices meet low, and step 4 is at fault.
     let cut = mesh(
@@ -372,6 +387,6 @@ fn circles_that_meet_low_are_a_hypothesis_on_whole_segments_and_a_fault_on_cut_o
         &[[0, 4, 3], [4, 2, 3], [4, 1, 2]],
     );
     let (_, certificate) = judge(&square, &cut, Some(&bounds(&UNIFORM, 0.26)));
-    let check = certificate.check("boundary-height").unwrap();
+    let check = certificate.check(Claim::BoundaryHeight).unwrap();
     assert!(!check.holds && check.broken == 2 && check.applies, "{check:?}");
 }

@@ -15,7 +15,6 @@
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
-use std::f64::consts::SQRT_2;
 use std::sync::Arc;
 
 mod background;
@@ -28,7 +27,6 @@ mod geodesic;
 mod integral;
 mod lfs;
 mod limit;
-mod rule;
 mod spec;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -49,17 +47,9 @@ pub use limit::envelope::of_samples;
 pub use limit::limited::Limited;
 pub use limit::reference::largest_at;
 pub use limit::{background, limit};
-pub use rule::Rule;
 pub use spec::ingredients::Ingredients;
 pub use spec::{KINDS, Spec, spec_for_size};
 pub use uniform::Uniform;
-
-/// The t = α c_b below which a spacing counts as flat: where biting must come down to a smaller size beside a corner, it
-/// then grows away from there faster than the spacing would.
-pub const FLAT_T: f64 = 0.05;
-
-/// √2 − 1, the largest t = α c_b for which biting is proved to work with distances inside the domain.
-pub const GEODESIC_T: f64 = SQRT_2 - 1.0;
 
 /// A control spacing function f.
 pub trait Spacing: Send + Sync {
@@ -145,23 +135,25 @@ impl Options {
     }
 }
 
-/// The final f, with what a row says about it.
+/// A control spacing function f as a mesher sees it.
 #[derive(Clone)]
-pub struct Prepared {
-    /// The SPEC in canonical form.
+pub struct ControlSpacing {
+    /// The SPEC in canonical form; empty for a function in code.
     pub spec: String,
     /// Whether f is nowhere above lfs.
     pub lfs_cap: bool,
-    /// The α asked for; [`Spacing::lipschitz`] of `function` is at most this.
-    pub alpha: f64,
     /// f.
     pub function: Arc<dyn Spacing>,
 }
 
-impl Prepared {
-    /// t as the bounds see it: c_b times the proved Lipschitz constant.
-    pub fn t_effective(&self, c_b: f64) -> f64 {
-        c_b * self.function.lipschitz()
+impl ControlSpacing {
+    /// A function in code as it is, which may be above lfs: the bounds of §5 and §6 are then measured, not guaranteed.
+    pub fn uncapped(function: impl Spacing + 'static) -> Self {
+        Self {
+            spec: String::new(),
+            lfs_cap: false,
+            function: Arc::new(function),
+        }
     }
 }
 
@@ -178,7 +170,7 @@ pub fn lfs_of(domain: &Domain) -> Result<Lfs, SpacingError> {
 ///
 /// # Errors
 /// Everything in [`SpacingError`].
-pub fn build(spec: &str, domain: &Domain, options: &Options) -> Result<Prepared, SpacingError> {
+pub fn build(spec: &str, domain: &Domain, options: &Options) -> Result<ControlSpacing, SpacingError> {
     build_with(spec, domain, options, || Ok(Arc::new(lfs_of(domain)?)))
 }
 
@@ -191,16 +183,32 @@ pub fn build_with(
     domain: &Domain,
     options: &Options,
     lfs: impl FnOnce() -> Result<Arc<Lfs>, SpacingError>,
-) -> Result<Prepared, SpacingError> {
+) -> Result<ControlSpacing, SpacingError> {
     options.check()?;
     let parsed = Spec::parse(spec)?;
     let made = Ingredients::new(&parsed, domain, options.lfs_cap, lfs)?;
-    let function = limit(made.gns, domain, options.alpha, options.limit_factor)?;
-    Ok(Prepared {
+    Ok(ControlSpacing {
         spec: parsed.to_string(),
         lfs_cap: made.lfs.is_some(),
-        alpha: options.alpha,
-        function,
+        function: limit(made.gns, domain, options.alpha, options.limit_factor)?,
+    })
+}
+
+/// The same of a function in code.
+///
+/// # Errors
+/// Everything in [`SpacingError`].
+pub fn control(function: Arc<dyn Spacing>, domain: &Domain, options: &Options) -> Result<ControlSpacing, SpacingError> {
+    options.check()?;
+    let mut parts = vec![function];
+    if options.lfs_cap {
+        parts.push(Arc::new(lfs_of(domain)?));
+    }
+    let capped = Min::of(parts, domain.bounds());
+    Ok(ControlSpacing {
+        spec: String::new(),
+        lfs_cap: options.lfs_cap,
+        function: limit(capped, domain, options.alpha, options.limit_factor)?,
     })
 }
 

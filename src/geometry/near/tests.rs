@@ -10,14 +10,6 @@ fn circles_meet_where_pythagoras_says() {
     assert_eq!(meeting_height(3.0, 1.0, 1.0), 0.0);
 }
 
-#[test]
-fn the_least_height_is_the_papers_by_hand() {
-    assert!((least_meeting_height(0.0) - 7f64.sqrt() / 4.0).abs() < 1e-15);
-    // ½ √((¼ − 2 + 7) ¾) / 4.
-    assert!((least_meeting_height(0.5) - 63f64.sqrt() / 32.0).abs() < 1e-15);
-    assert_eq!(least_meeting_height(1.0), 0.0);
-}
-
 /// Radius 0.01 + t·|x|: t-Lipschitz, graded over two powers of ten.
 fn disc_at(centre: DVec2, t: f64) -> Disc {
     Disc {

@@ -188,7 +188,6 @@ pub(super) const ENTRY: Entry = Entry {
             "whether edges are swapped to Delaunay at the end",
         ),
     ],
-    guarantees: &[],
     make: from_parameters::<AdvancingFront>,
 };
 

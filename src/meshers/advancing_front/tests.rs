@@ -5,7 +5,8 @@ use crate::domain::gallery;
 use crate::mesh::Piece;
 use crate::meshers::Budget;
 use crate::quality::{Certificate, Statistics, judge};
-use crate::spacing::{Options, Prepared, build};
+use crate::spacing::{ControlSpacing, Options, build};
+use crate::theory::Claim;
 use proptest::prelude::*;
 
 mod front;
@@ -28,7 +29,7 @@ fn domain(name: &str) -> Domain {
     gallery::domain(name).expect("a gallery name").expect("a valid domain")
 }
 
-fn prepared(domain: &Domain, spec: &str) -> Prepared {
+fn prepared(domain: &Domain, spec: &str) -> ControlSpacing {
     let options = Options {
         lfs_cap: false,
         ..Options::with_alpha(0.5)
@@ -84,7 +85,7 @@ fn advanced<T>(
 
 fn assert_is_mesh(domain: &Domain, mesh: &Mesh) -> (Statistics, Certificate) {
     let (statistics, certificate) = judge(domain, mesh, None);
-    let is_broken = |check: &&crate::quality::Check| !check.holds && check.claim != "constrained-delaunay";
+    let is_broken = |check: &&crate::quality::Check| !check.holds && check.claim != Claim::ConstrainedDelaunay;
     let broken: Vec<_> = certificate.checks.iter().filter(is_broken).collect();
     assert!(broken.is_empty(), "{broken:#?}");
     (statistics, certificate)

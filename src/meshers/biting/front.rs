@@ -22,7 +22,8 @@ use crate::meshers::biting::beyond::rule::Meeting;
 use crate::meshers::biting::order::{Queue, RANK_STEP, Ticket};
 use crate::meshers::sizing::Sizing;
 use crate::meshers::{Bite, MeshError, Monitor, Reason, Request, Waiting};
-use crate::spacing::{Rule, Spacing};
+use crate::spacing::Spacing;
+use crate::theory::Rule;
 
 /// A point where the arcs of two biting circles meet.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ use crate::geometry::{DVec2, tolerance};
 use crate::meshers::MeshError;
 use crate::meshers::biting::beyond::crossing::Watch;
 use crate::meshers::biting::front::Front;
-use crate::spacing::Rule;
+use crate::theory::Rule;
 
 /// A part of a segment that may be uncovered, seen from the end at which it is bitten next.
 #[derive(Clone, Copy, Debug)]

@@ -76,8 +76,9 @@ use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::mesh::{Mesh, Piece};
-use crate::meshers::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
-use crate::spacing::{Rule, Spacing};
+use crate::meshers::{Entry, MeshError, Mesher, Parameter, Request, Trace, from_parameters};
+use crate::spacing::Spacing;
+use crate::theory::{Claim, Guarantee, Rule};
 use beyond::corners::Cuts;
 use beyond::inside::Inside;
 use beyond::notches::Notches;
@@ -152,29 +153,6 @@ pub(super) const ENTRY: Entry = Entry {
             help: "whether two circles that cover a segment between them but meet low are made smaller, a third between them",
         },
     ],
-    guarantees: &[
-        Guarantee::always("constrained-delaunay"),
-        Guarantee::always("boundary-height"),
-        Guarantee::always("min-angle"),
-        Guarantee::with("min-angle-beyond-corners", &[("corners", "cut"), ("head_on", "part")]),
-        Guarantee::with("corner-angles", &[("corners", "cut")]),
-        Guarantee::plain("packing-disjoint"),
-        Guarantee::plain("coverage"),
-        Guarantee::plain("nn-vertex-lower"),
-        Guarantee::plain("nn-vertex-upper"),
-        Guarantee::plain("nn-point-lower"),
-        Guarantee::plain("nn-point-upper"),
-        Guarantee::plain("vertices-lower"),
-        Guarantee::plain("vertices-upper"),
-        Guarantee::with("packing-disjoint", TO_THE_LETTER),
-        Guarantee::with("coverage", TO_THE_LETTER),
-        Guarantee::with("nn-vertex-lower", TO_THE_LETTER),
-        Guarantee::with("nn-vertex-upper", TO_THE_LETTER),
-        Guarantee::with("nn-point-lower", TO_THE_LETTER),
-        Guarantee::with("nn-point-upper", TO_THE_LETTER),
-        Guarantee::with("vertices-lower", TO_THE_LETTER),
-        Guarantee::with("vertices-upper", TO_THE_LETTER),
-    ],
     make: from_parameters::<Biting>,
 };
 
@@ -225,7 +203,37 @@ impl Biting {
     }
 }
 
+/// What holds where biting bites with the spacing that it was given, and every circle: in plain cases, or to the letter.
+const OF_WHOLE_BITES: [Claim; 8] = [
+    Claim::PackingDisjoint,
+    Claim::Coverage,
+    Claim::NnVertexLower,
+    Claim::NnVertexUpper,
+    Claim::NnPointLower,
+    Claim::NnPointUpper,
+    Claim::VerticesLower,
+    Claim::VerticesUpper,
+];
+
 impl Mesher for Biting {
+    fn rule(&self) -> Rule {
+        self.rule
+    }
+
+    fn guarantees(&self) -> Vec<Guarantee> {
+        let (cuts, parts) = (self.corners == Corners::Cut, self.head_on == HeadOn::Part);
+        let mut claims = vec![Claim::ConstrainedDelaunay, Claim::BoundaryHeight, Claim::MinAngle];
+        claims.extend((cuts && parts).then_some(Claim::MinAngleBeyondCorners));
+        claims.extend(cuts.then_some(Claim::CornerAngles));
+        let plain = cuts || parts;
+        let of_whole_bites = OF_WHOLE_BITES.map(|claim| Guarantee { claim, plain });
+        claims
+            .into_iter()
+            .map(Guarantee::always)
+            .chain(of_whole_bites)
+            .collect()
+    }
+
     fn mesh(
         &self,
         domain: &Domain,

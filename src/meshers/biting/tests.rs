@@ -1,10 +1,11 @@
 //! What the certificate does not see: the rules of step 4, the orders, refusals.
 
+use crate::Case;
 use crate::domain::gallery;
 use crate::meshers::biting::*;
-use crate::meshers::{Budget, Parameters, Reason, Waiting};
-use crate::quality::{Bounds, judge};
-use crate::spacing::{Options, build};
+use crate::meshers::{Budget, Reason, Waiting};
+use crate::spacing::{ControlSpacing, Options, build};
+use crate::theory::Claim;
 use proptest::prelude::*;
 
 mod by_later;
@@ -160,36 +161,23 @@ proptest! {
     ) {
         let domain = gallery::domain(name).expect("a gallery name").expect("a valid domain");
         let spacing = uncapped(&domain, &format!("expr: {low} + {slope}*sqrt((x-0.3)^2 + (y-0.4)^2 + 0.001)"), 0.9);
-        let mesh = with(order).mesh(&domain, &*spacing, &request(1.0), &mut Trace::default()).expect("a mesh");
-        let bounds = Bounds {
-            spacing: &*spacing, c_b: 1.0, rule: Rule::Earlier, lfs_cap: false, integral: None, integral_error: 0.0, guaranteed: &["coverage"],
-        };
-        let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
-        prop_assert!(certificate.holds, "{:?}", certificate.checks.iter().filter(|c| !c.holds).collect::<Vec<_>>());
+        let case = Case::of(domain, ControlSpacing { spec: String::new(), lfs_cap: false, function: spacing }, 1.0);
+        let mesher = Biting { corners: Corners::Bite, head_on: HeadOn::Leave, ..with(order) };
+        let mesh = case.mesh(&mesher).expect("a mesh");
+        let (_, certificate) = case.judge_of(&mesh, &mesher);
+        prop_assert!(certificate.check(Claim::Coverage).expect("a check").applies);
+        prop_assert!(certificate.holds, "{:?}", certificate.broken().collect::<Vec<_>>());
     }
 }
 
 /// The mesh with corners cut off, judged, and what was counted.
 fn cut(domain: &Domain, c_b: f64) -> (Mesh, crate::quality::Certificate, Trace) {
-    let spacing = build("lfs", domain, &Options::new(0.25, c_b)).expect("lfs").function;
-    let mesher = Biting {
-        corners: Corners::Cut,
-        ..Biting::default()
-    };
+    let case = Case::new(domain.clone(), "lfs", 0.25, c_b).expect("lfs");
     let mut trace = Trace::default();
-    let mesh = mesher
-        .mesh(domain, &*spacing, &request(c_b), &mut trace)
+    let mesh = case
+        .mesh_as(&Biting::default(), &request(c_b), &mut trace)
         .expect("a mesh");
-    let bounds = Bounds {
-        spacing: &*spacing,
-        c_b,
-        rule: Rule::Earlier,
-        lfs_cap: true,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &["constrained-delaunay", "min-angle-beyond-corners", "corner-angles"],
-    };
-    let (_, certificate) = judge(domain, &mesh, Some(&bounds));
+    let (_, certificate) = case.judge_of(&mesh, &Biting::default());
     (mesh, certificate, trace)
 }
 
@@ -256,25 +244,23 @@ fn corners_of_random_polygons_are_cut_off_and_given_back() {
     }
 }
 
+/// A gallery domain with a spacing, capped and limited.
+fn case(name: &str, spec: &str, t: f64, c_b: f64) -> Case {
+    let domain = gallery::domain(name).expect("a gallery name").expect("a valid domain");
+    Case::new(domain, spec, t, c_b).expect("a spacing")
+}
+
 /// Certifies the default of a domain with corners of every kind, by name, spacing and pair.
 fn keeps_its_bounds(name: &str, spec: &str, t: f64, c_b: f64) {
-    let domain = gallery::domain(name).expect("a gallery name").expect("a valid domain");
-    let prepared = build(spec, &domain, &Options::new(t, c_b)).expect("a spacing");
-    let spacing = &*prepared.function;
-    let mesh = Biting::default()
-        .mesh(&domain, spacing, &request(c_b), &mut Trace::default())
-        .expect("a mesh");
-    let bounds = Bounds {
-        spacing,
-        c_b,
-        rule: Rule::Earlier,
-        lfs_cap: prepared.lfs_cap,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &ENTRY.guaranteed(&Parameters::new(), &domain, spacing, c_b),
-    };
-    let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
-    assert!(certificate.check("min-angle-beyond-corners").expect("a check").applies);
+    let case = case(name, spec, t, c_b);
+    let mesh = case.mesh(&Biting::default()).expect("a mesh");
+    let (_, certificate) = case.judge_of(&mesh, &Biting::default());
+    assert!(
+        certificate
+            .check(Claim::MinAngleBeyondCorners)
+            .expect("a check")
+            .applies
+    );
     let broken: Vec<_> = certificate.broken().collect();
     assert!(broken.is_empty(), "{name}: {broken:?}");
 }

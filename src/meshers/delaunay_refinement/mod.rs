@@ -58,11 +58,12 @@ mod refiner;
 mod tests;
 mod triangles;
 
-use super::{Entry, Guarantee, MeshError, Mesher, Parameter, Request, Trace, from_parameters, within};
+use super::{Entry, MeshError, Mesher, Parameter, Request, Trace, from_parameters, within};
 use crate::delaunay::Refinable;
 use crate::domain::Domain;
 use crate::mesh::Mesh;
 use crate::spacing::Spacing;
+use crate::theory::{Claim, Guarantee};
 use serde::{Deserialize, Serialize};
 
 /// Where a bad triangle is broken.
@@ -162,11 +163,14 @@ pub(super) const ENTRY: Entry = Entry {
             help: "what may not exceed that of the equilateral triangle with edge s; none: angles only",
         },
     ],
-    guarantees: &[Guarantee::always("constrained-delaunay")],
     make: from_parameters::<DelaunayRefinement>,
 };
 
 impl Mesher for DelaunayRefinement {
+    fn guarantees(&self) -> Vec<Guarantee> {
+        vec![Guarantee::always(Claim::ConstrainedDelaunay)]
+    }
+
     fn check(&self) -> Result<(), String> {
         within(&[("angle", self.angle, 0.0, LARGEST_ANGLE)])
     }

@@ -66,11 +66,12 @@ pub use circles::Sampling;
 pub use independent_set::{Order, Packing};
 
 use super::sizing::Sizing;
-use super::{Entry, Guarantee, MeshError, Mesher, Monitor, Parameter, Request, Trace, from_parameters, within};
+use super::{Entry, MeshError, Mesher, Monitor, Parameter, Request, Trace, from_parameters, within};
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
 use crate::mesh::Mesh;
 use crate::spacing::Spacing;
+use crate::theory::{Claim, Guarantee};
 use serde::{Deserialize, Serialize};
 
 /// The method and its parameters.
@@ -139,17 +140,6 @@ pub(super) const ENTRY: Entry = Entry {
             help: "go on sampling where gaps remain until none does",
         },
     ],
-    guarantees: &[
-        Guarantee::always("constrained-delaunay"),
-        Guarantee::always("packing-disjoint"),
-        Guarantee::always("nn-vertex-lower"),
-        Guarantee::always("nn-point-lower"),
-        Guarantee::always("vertices-upper"),
-        Guarantee::with("coverage", &[("complete", "true")]),
-        Guarantee::with("nn-vertex-upper", &[("complete", "true")]),
-        Guarantee::with("nn-point-upper", &[("complete", "true")]),
-        Guarantee::with("vertices-lower", &[("complete", "true")]),
-    ],
     make: from_parameters::<QuadtreeMis>,
 };
 
@@ -211,6 +201,24 @@ impl QuadtreeMis {
 const LEAST_LEAF_SIDE: f64 = 1.0 / 64.0;
 
 impl Mesher for QuadtreeMis {
+    fn guarantees(&self) -> Vec<Guarantee> {
+        let of_packing = [
+            Claim::ConstrainedDelaunay,
+            Claim::PackingDisjoint,
+            Claim::NnVertexLower,
+            Claim::NnPointLower,
+            Claim::VerticesUpper,
+        ];
+        let of_cover = [
+            Claim::Coverage,
+            Claim::NnVertexUpper,
+            Claim::NnPointUpper,
+            Claim::VerticesLower,
+        ];
+        let of_cover = of_cover.into_iter().filter(|_| self.complete);
+        of_packing.into_iter().chain(of_cover).map(Guarantee::always).collect()
+    }
+
     fn check(&self) -> Result<(), String> {
         within(&[
             ("oversample", f64::from(self.oversample), 2.0, 64.0),

@@ -3,13 +3,15 @@
 use super::balance::{Leaf, Quadtree, balance};
 use super::circles::{circles, row, samples};
 use super::*;
+use crate::Case;
 use crate::domain::{Pslg, gallery};
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::COVERED;
 use crate::meshers::Budget;
 use crate::meshers::Parameters;
-use crate::quality::{Bounds, Certificate, judge};
-use crate::spacing::{Options, Rule, build};
+use crate::quality::Certificate;
+use crate::spacing::{ControlSpacing, Options, build};
+use crate::theory::Claim;
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -55,21 +57,15 @@ fn pack(mesher: &QuadtreeMis, domain: &Domain, spacing: &dyn Spacing) -> Packing
         .expect("a packing")
 }
 
-fn certify(mesher: &QuadtreeMis, domain: &Domain, spacing: &dyn Spacing, lfs_cap: bool) -> Certificate {
-    let mesh = mesher
-        .mesh(domain, spacing, &REQUEST, &mut Trace::default())
-        .expect("a mesh");
-    let parameters = Parameters::from_iter([("complete".to_owned(), mesher.complete.into())]);
-    let bounds = Bounds {
-        spacing,
-        c_b: REQUEST.c_b,
-        rule: Rule::Earlier,
+fn certify(mesher: &QuadtreeMis, domain: &Domain, spacing: &Arc<dyn Spacing>, lfs_cap: bool) -> Certificate {
+    let spacing = ControlSpacing {
+        spec: String::new(),
         lfs_cap,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &ENTRY.guaranteed(&parameters, domain, spacing, REQUEST.c_b),
+        function: spacing.clone(),
     };
-    judge(domain, &mesh, Some(&bounds)).1
+    let case = Case::of(domain.clone(), spacing, REQUEST.c_b);
+    let mesh = case.mesh_as(mesher, &REQUEST, &mut Trace::default()).expect("a mesh");
+    case.judge_of(&mesh, mesher).1
 }
 
 fn tree_of(mesher: &QuadtreeMis, domain: &Domain, spacing: &dyn Spacing) -> Quadtree {
@@ -188,7 +184,7 @@ proptest! {
         mesher in any_mesher(), name in any_domain(), low in 0.02..0.3f64, slope in 0.0..0.9f64,
     ) {
         let domain = domain(name);
-        let certificate = certify(&mesher, &domain, &*growing(&domain, low, slope), false);
+        let certificate = certify(&mesher, &domain, &growing(&domain, low, slope), false);
         prop_assert!(certificate.holds, "{:?}", certificate.checks.iter().filter(|c| !c.holds).collect::<Vec<_>>());
     }
 }
@@ -213,8 +209,8 @@ fn complete_covers_the_small_gallery() {
                 complete: true,
                 ..QuadtreeMis::default()
             };
-            let certificate = certify(&mesher, &domain, &*spacing, true);
-            let coverage = certificate.check("coverage").expect("a spacing is given");
+            let certificate = certify(&mesher, &domain, &spacing, true);
+            let coverage = certificate.check(Claim::Coverage).expect("a spacing is given");
             assert!(coverage.holds && coverage.applies, "{name}: {coverage:?}");
             assert!(certificate.holds, "{name}: {certificate:#?}");
         }
@@ -230,8 +226,8 @@ fn sampling_alone_leaves_gaps_that_fewer_samples_make_wider() {
             oversample,
             ..QuadtreeMis::default()
         };
-        certify(&mesher, &domain, &*spacing, false)
-            .check("coverage")
+        certify(&mesher, &domain, &spacing, false)
+            .check(Claim::Coverage)
             .map_or(0, |check| check.broken)
     };
     assert!(uncovered(2) > 4 * uncovered(16), "{} {}", uncovered(2), uncovered(16));
@@ -357,9 +353,9 @@ fn complete_covers_far_from_the_origin() {
         oversample: 2,
         ..QuadtreeMis::default()
     };
-    let certificate = certify(&mesher, &domain, &*spacing, false);
+    let certificate = certify(&mesher, &domain, &spacing, false);
     assert!(
-        certificate.check("coverage").is_some_and(|check| check.holds),
+        certificate.check(Claim::Coverage).is_some_and(|check| check.holds),
         "{certificate:#?}"
     );
 }

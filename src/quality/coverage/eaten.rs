@@ -10,6 +10,7 @@ use crate::geometry::DVec2;
 use crate::geometry::tolerance::CERTIFICATE;
 use crate::quality::Check;
 use crate::quality::subject::Sizes;
+use crate::theory::Claim;
 use std::collections::VecDeque;
 
 /// Most quarterings of a triangle and its parts.
@@ -36,7 +37,10 @@ pub fn check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
         // Triangles that are not those of the domain tell nothing of it.
         tally.see(f64::INFINITY, subject.domain.bounds().centre(), true);
     }
-    tally.check("coverage", "rule of the later", sizes.applies("coverage"), 1.0)
+    Check {
+        lemma: "rule of the later".into(),
+        ..sizes.check(tally, Claim::Coverage, 1.0)
+    }
 }
 
 /// Notes distance over g at a point, returns both, and says whether the point is covered.

@@ -1,12 +1,13 @@
 //! The paper's bounds and what they are held against, on meshes small enough to work out.
 
 use super::*;
+use crate::theory::Claim;
 
-fn check(domain: &Domain, mesh: &Mesh, bounds: &Bounds, claim: &str) -> Check {
+fn check(domain: &Domain, mesh: &Mesh, bounds: &Bounds, claim: Claim) -> Check {
     judge(domain, mesh, Some(bounds)).1.check(claim).unwrap().clone()
 }
 
-fn assert_near(found: Option<f64>, expected: f64, what: &str) {
+fn assert_near(found: Option<f64>, expected: f64, what: impl std::fmt::Display) {
     let found = found.unwrap_or(f64::NAN);
     assert!(
         (found - expected).abs() <= 1e-12 * expected.abs().max(1.0),
@@ -21,26 +22,29 @@ fn every_bound_is_what_the_paper_says_for_t_a_quarter_and_c_b_a_half() {
         slope: p(0.0, 0.5),
     };
     let bounds = Bounds {
-        integral: Some(2.0),
-        integral_error: 0.25,
+        integral: Some(Integral {
+            value: 2.0,
+            error: 0.25,
+            evaluations: 0,
+        }),
         ..bounds(&spacing, 0.5)
     };
     let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds));
     for (claim, expected) in [
-        ("packing-disjoint", 1.0),
-        ("coverage", 0.0),
+        (Claim::PackingDisjoint, 1.0),
+        (Claim::Coverage, 0.0),
         // (9): ¾ √((1/16 − 1 + 7) (1 − 1/16)) / 4.
-        ("boundary-height", 0.75 * (97f64 * 15.0).sqrt() / 64.0),
-        ("min-angle", 0.25f64.asin().to_degrees()),
-        ("min-angle-beyond-corners", 0.25f64.asin().to_degrees()),
-        ("corner-angles", 1.0),
-        ("nn-vertex-lower", 0.375),
-        ("nn-vertex-upper", 4.0 / 3.0),
-        ("nn-point-lower", 0.2),
-        ("nn-point-upper", 22.0 / 9.0),
+        (Claim::BoundaryHeight, 0.75 * (97f64 * 15.0).sqrt() / 64.0),
+        (Claim::MinAngle, 0.25f64.asin().to_degrees()),
+        (Claim::MinAngleBeyondCorners, 0.25f64.asin().to_degrees()),
+        (Claim::CornerAngles, 1.0),
+        (Claim::NnVertexLower, 0.375),
+        (Claim::NnVertexUpper, 4.0 / 3.0),
+        (Claim::NnPointLower, 0.2),
+        (Claim::NnPointUpper, 22.0 / 9.0),
         // (9/16) · 2 / (π / 4), less a quarter, and 4 · (25/16) · 2 / (π / 4), and a quarter.
-        ("vertices-lower", 3.375 / std::f64::consts::PI),
-        ("vertices-upper", 62.5 / std::f64::consts::PI),
+        (Claim::VerticesLower, 3.375 / std::f64::consts::PI),
+        (Claim::VerticesUpper, 62.5 / std::f64::consts::PI),
     ] {
         assert_near(certificate.check(claim).unwrap().bound, expected, claim);
     }
@@ -54,18 +58,18 @@ fn without_t_under_1_there_is_no_upper_bound() {
             slope: p(0.0, slope),
         };
         let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&spacing, 1.0)));
-        for claim in ["nn-vertex-upper", "nn-point-upper"] {
+        for claim in [Claim::NnVertexUpper, Claim::NnPointUpper] {
             let check = certificate.check(claim).unwrap();
             assert_eq!(check.bound.is_some(), is_bounded, "{claim}, t = {slope}");
             assert!(check.holds && check.applies == is_bounded);
         }
-        let lowest = certificate.check("vertices-lower").unwrap().bound;
+        let lowest = certificate.check(Claim::VerticesLower).unwrap().bound;
         assert_near(
             lowest,
             (1.0 - slope).max(0.0).powi(2) / std::f64::consts::PI,
-            "vertices-lower",
+            Claim::VerticesLower,
         );
-        assert_eq!(certificate.check("vertices-lower").unwrap().applies, is_bounded);
+        assert_eq!(certificate.check(Claim::VerticesLower).unwrap().applies, is_bounded);
     }
 }
 
@@ -77,15 +81,15 @@ fn ratios_of_nn_are_those_of_a_graded_spacing() {
         slope: p(0.0, 0.5),
     };
     let (square, fan) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
-    let worst = |claim: &str| check(&square, &fan, &bounds(&spacing, 0.5), claim).worst;
+    let worst = |claim: Claim| check(&square, &fan, &bounds(&spacing, 0.5), claim).worst;
     let half = 0.5f64.sqrt();
-    assert_near(worst("nn-vertex-lower"), half / 1.5, "upper corners");
-    assert_near(worst("nn-vertex-upper"), half, "lower corners");
+    assert_near(worst(Claim::NnVertexLower), half / 1.5, "upper corners");
+    assert_near(worst(Claim::NnVertexUpper), half, "lower corners");
     // Middles of spokes at heights ¼ and ¾, of sides at 0, ½ and 1, which are circumcentres too.
-    assert_near(worst("nn-point-lower"), 0.5 * half / 1.375, "upper spokes");
-    assert_near(worst("nn-point-upper"), 0.5, "the lower side");
+    assert_near(worst(Claim::NnPointLower), 0.5 * half / 1.375, "upper spokes");
+    assert_near(worst(Claim::NnPointUpper), 0.5, "the lower side");
     // c_p = ½ / (2 + ¼), and the upper corners are nearest to the middle for their size.
-    assert_near(worst("packing-disjoint"), half / (2.0 / 9.0 * 2.75), "upper spokes");
+    assert_near(worst(Claim::PackingDisjoint), half / (2.0 / 9.0 * 2.75), "upper spokes");
 }
 
 #[test]
@@ -93,11 +97,11 @@ fn centres_are_granted_the_rounding_of_their_coordinates() {
     let half = 0.5f64.sqrt();
     // Relative room: a billionth, and at coordinates of a million 10 ulp, 2.22e-9, over what they are compared with.
     for (claim, c_b, at_origin, far_away) in [
-        ("packing-disjoint", half, 1e-9, 4.14e-9),
-        ("nn-vertex-lower", half, 1e-9, 4.14e-9),
-        ("nn-vertex-upper", -0.5 * half, 1e-9, 4.14e-9),
-        ("nn-point-lower", half, 1e-9, 7.28e-9),
-        ("nn-point-upper", -0.5 / 3.0, 1e-9, 5.44e-9),
+        (Claim::PackingDisjoint, half, 1e-9, 4.14e-9),
+        (Claim::NnVertexLower, half, 1e-9, 4.14e-9),
+        (Claim::NnVertexUpper, -0.5 * half, 1e-9, 4.14e-9),
+        (Claim::NnPointLower, half, 1e-9, 7.28e-9),
+        (Claim::NnPointUpper, -0.5 / 3.0, 1e-9, 5.44e-9),
     ] {
         for (shift, room) in [(0.0, at_origin), (1e6, far_away)] {
             let far = |points: &[DVec2]| points.iter().map(|x| *x + DVec2::splat(shift)).collect::<Vec<_>>();
@@ -125,7 +129,7 @@ fn centres_are_granted_the_rounding_of_their_coordinates() {
 fn packing_circles_count_by_what_surely_lies_inside() {
     let shares = |ring: &[DVec2], inner: &[DVec2], points: &[DVec2], c_b: f64| {
         let (domain, mesh) = (domain(ring, inner), mesh(&[ring, points].concat(), &[]));
-        check(&domain, &mesh, &bounds(&UNIFORM, c_b), "vertices-upper").worst
+        check(&domain, &mesh, &bounds(&UNIFORM, c_b), Claim::VerticesUpper).worst
     };
     // c_p = 0.1. Four corners make one circle.
     assert_near(shares(&SQUARE, &[], &[], 0.2), 1.0, "corners");
@@ -137,7 +141,7 @@ fn packing_circles_count_by_what_surely_lies_inside() {
         (p(0.5, 0.101), 1.0),
         (p(0.05, 0.06), 0.0),
     ] {
-        assert_near(shares(&SQUARE, &[], &[point], 0.2), 1.0 + share, &point.to_string());
+        assert_near(shares(&SQUARE, &[], &[point], 0.2), 1.0 + share, point.to_string());
     }
     // Inside, segments do not count; at the ends of one, its two angles do.
     let across = [SQUARE[0], SQUARE[2]];
@@ -164,7 +168,7 @@ fn packing_circles_count_by_what_surely_lies_inside() {
             &domain(&SQUARE, &[]),
             &mesh(&points, &[]),
             &bounds(&graded, 0.5),
-            "vertices-upper",
+            Claim::VerticesUpper,
         )
         .worst;
         assert_near(found, 1.0 + share, "graded");
@@ -178,7 +182,7 @@ fn angles_at_a_corner_are_held_against_the_smallest_input_angle_there() {
     let domain = domain(&half, &[]);
     let corner = |points: &[DVec2], triangles: &[[u32; 3]]| {
         let (_, certificate) = judge(&domain, &mesh(points, triangles), Some(&bounds(&UNIFORM, 0.3)));
-        certificate.check("corner-angles").unwrap().clone()
+        certificate.check(Claim::CornerAngles).unwrap().clone()
     };
     let whole = corner(&half, &[[0, 1, 2]]);
     assert!(

@@ -1,6 +1,7 @@
 //! The bounds by the rule of the later point: coverage against sampling, and every bound by hand.
 
 use super::*;
+use crate::theory::Claim;
 
 fn by_later(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
     Bounds {
@@ -10,7 +11,11 @@ fn by_later(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
 }
 
 fn coverage(domain: &Domain, mesh: &Mesh, bounds: &Bounds) -> Check {
-    judge(domain, mesh, Some(bounds)).1.check("coverage").unwrap().clone()
+    judge(domain, mesh, Some(bounds))
+        .1
+        .check(Claim::Coverage)
+        .unwrap()
+        .clone()
 }
 
 #[test]
@@ -54,19 +59,19 @@ fn every_bound_by_hand_for_t_a_quarter_and_c_b_a_half() {
     };
     let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&by_later(&spacing, 0.5)));
     for (claim, expected) in [
-        ("packing-disjoint", 1.0),
-        ("coverage", 1.0),
-        ("min-angle", 0.375f64.asin().to_degrees()),
-        ("min-angle-beyond-corners", 0.375f64.asin().to_degrees()),
-        ("nn-vertex-lower", 0.4),
-        ("nn-vertex-upper", 4.0 / 3.0),
-        ("nn-point-lower", 2.0 / 9.0),
-        ("nn-point-upper", 13.0 / 6.0),
+        (Claim::PackingDisjoint, 1.0),
+        (Claim::Coverage, 1.0),
+        (Claim::MinAngle, 0.375f64.asin().to_degrees()),
+        (Claim::MinAngleBeyondCorners, 0.375f64.asin().to_degrees()),
+        (Claim::NnVertexLower, 0.4),
+        (Claim::NnVertexUpper, 4.0 / 3.0),
+        (Claim::NnPointLower, 2.0 / 9.0),
+        (Claim::NnPointUpper, 13.0 / 6.0),
     ] {
         let check = certificate.check(claim).unwrap();
         assert!((check.bound.unwrap() - expected).abs() < 1e-12, "{claim}: {check:?}");
     }
-    assert!(!certificate.check("boundary-height").unwrap().applies);
+    assert!(!certificate.check(Claim::BoundaryHeight).unwrap().applies);
 }
 
 #[test]
@@ -82,18 +87,20 @@ fn any_t_under_1_is_enough_and_circles_may_meet_head_on() {
         is_geodesic: false,
         corners_hide: false,
     };
-    assert!(hypotheses(0.99).imply("min-angle") && !hypotheses(1.0).imply("min-angle"));
-    assert!(hypotheses(0.5).imply("min-angle-beyond-corners") && !hypotheses(0.6).imply("min-angle-beyond-corners"));
+    assert!(hypotheses(0.99).imply(Claim::MinAngle) && !hypotheses(1.0).imply(Claim::MinAngle));
+    assert!(
+        hypotheses(0.5).imply(Claim::MinAngleBeyondCorners) && !hypotheses(0.6).imply(Claim::MinAngleBeyondCorners)
+    );
     let acute = Hypotheses {
         smallest_segment_angle_deg: 80.0,
         ..hypotheses(0.25)
     };
-    assert!(!acute.imply("min-angle") && acute.imply("coverage") && acute.imply("min-angle-beyond-corners"));
+    assert!(!acute.imply(Claim::MinAngle) && acute.imply(Claim::Coverage) && acute.imply(Claim::MinAngleBeyondCorners));
     let earlier = Hypotheses {
         rule: Rule::Earlier,
         ..hypotheses(0.25)
     };
-    assert!(!earlier.imply("min-angle") && earlier.imply("boundary-height"));
+    assert!(!earlier.imply(Claim::MinAngle) && earlier.imply(Claim::BoundaryHeight));
 }
 
 proptest! {

@@ -3,6 +3,7 @@
 use super::*;
 use crate::quality::coverage::coverage_check;
 use crate::quality::subject::Subject;
+use crate::theory::Claim;
 
 /// By definition: whether every sample of the domain is in a disc whose radius is changed by `change`.
 fn samples_covered(domain: &Domain, mesh: &Mesh, radius: impl Fn(DVec2) -> f64, change: f64) -> bool {
@@ -31,7 +32,7 @@ proptest! {
         let radius = |x: DVec2| spacing.at(x).max(1e-3) * (1.0 + CERTIFICATE);
         prop_assume!(mesh.points.iter().all(|x| spacing.at(*x) >= 1e-3));
         let (_, certificate) = judge(&domain, &mesh, Some(&bounds(&spacing, 1.0)));
-        let check = certificate.check("coverage").unwrap();
+        let check = certificate.check(Claim::Coverage).unwrap();
         if !samples_covered(&domain, &mesh, radius, 0.0) {
             prop_assert!(!check.holds, "{check:?}");
         }
@@ -63,7 +64,7 @@ fn of_circles_that_all_overlap_no_more_than_a_few_hundred_each_are_counted() {
     let mut heap = fan(p(0.5, 0.5));
     heap.points.extend((0..1200).map(|k| p(0.4 + 1e-5 * f64::from(k), 0.6)));
     let (_, certificate) = judge(&domain(&SQUARE, &[]), &heap, Some(&bounds(&UNIFORM, 0.7)));
-    let broken = certificate.check("packing-disjoint").unwrap().broken;
+    let broken = certificate.check(Claim::PackingDisjoint).unwrap().broken;
     // All pairs are 700 000.
     assert!((10_000..256 * 1205).contains(&broken), "{broken}");
 }
@@ -88,7 +89,7 @@ fn where_triangles_are_missing_all_circles_are_asked() {
         &mesh(&ring, &corners),
         Some(&bounds(&UNIFORM, 0.4)),
     );
-    let check = certificate.check("coverage").unwrap();
+    let check = certificate.check(Claim::Coverage).unwrap();
     assert!(!check.holds && check.broken == 4, "{check:?}");
     // The circle around (½, 0) is bare from where those around its neighbours, √½ away, end to where they begin.
     let bare = std::f64::consts::FRAC_PI_2 - 2.0 * (0.5f64.sqrt() / 0.8).acos();
@@ -102,7 +103,7 @@ fn a_piece_that_no_chain_follows_is_looked_at_whole() {
         &mesh(&SQUARE, &[]),
         Some(&bounds(&UNIFORM, 0.375)),
     );
-    let check = certificate.check("coverage").unwrap();
+    let check = certificate.check(Claim::Coverage).unwrap();
     // A quarter of each side is bare.
     let (stretch, middles) = (0.25, [[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]]);
     assert!(!check.holds && check.worst.unwrap() > stretch, "{check:?}");
@@ -117,5 +118,5 @@ fn circles_and_pieces_that_are_bare_are_counted() {
     // Spokes, √½ long, are covered. A fifth of each side is not, nor is the circle in the middle. What is bare of the others has
     // its middle outside, and crosses the boundary where that is bare.
     let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&UNIFORM, 0.4)));
-    assert_eq!(certificate.check("coverage").unwrap().broken, 5);
+    assert_eq!(certificate.check(Claim::Coverage).unwrap().broken, 5);
 }

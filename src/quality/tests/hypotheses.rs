@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::domain::InputSegment;
+use crate::theory::Claim;
+use crate::theory::{FLAT_T, GEODESIC_T, Promises};
 
 const RIGHT: Hypotheses = Hypotheses {
     t: 0.3,
@@ -16,24 +18,24 @@ const RIGHT: Hypotheses = Hypotheses {
 };
 
 /// The claims that do not follow.
-fn missing(hypotheses: Hypotheses) -> Vec<&'static str> {
-    CLAIMS.into_iter().filter(|claim| !hypotheses.imply(claim)).collect()
+fn missing(hypotheses: Hypotheses) -> Vec<Claim> {
+    CLAIMS.into_iter().filter(|claim| !hypotheses.imply(*claim)).collect()
 }
 
 #[test]
 fn every_claim_needs_what_the_table_says() {
-    let angles = ["boundary-height", "min-angle"];
-    let of_section_6 = [angles[0], angles[1], "min-angle-beyond-corners"];
+    let angles = [Claim::BoundaryHeight, Claim::MinAngle];
+    let of_section_6 = [angles[0], angles[1], Claim::MinAngleBeyondCorners];
     let of_packing = [
-        "packing-disjoint",
-        "boundary-height",
-        "min-angle",
-        "min-angle-beyond-corners",
-        "nn-vertex-lower",
-        "nn-vertex-upper",
-        "nn-point-lower",
-        "nn-point-upper",
-        "vertices-upper",
+        Claim::PackingDisjoint,
+        Claim::BoundaryHeight,
+        Claim::MinAngle,
+        Claim::MinAngleBeyondCorners,
+        Claim::NnVertexLower,
+        Claim::NnVertexUpper,
+        Claim::NnPointLower,
+        Claim::NnPointUpper,
+        Claim::VerticesUpper,
     ];
     let third = 1.0 / 3.0f64;
     for (hypotheses, expected) in [
@@ -66,14 +68,14 @@ fn every_claim_needs_what_the_table_says() {
                 low_head_on: 1,
                 ..RIGHT
             },
-            &["min-angle"],
+            &[Claim::MinAngle],
         ),
         (
             Hypotheses {
                 single_corners: false,
                 ..RIGHT
             },
-            &["corner-angles"],
+            &[Claim::CornerAngles],
         ),
         (
             Hypotheses {
@@ -101,10 +103,10 @@ fn every_claim_needs_what_the_table_says() {
     for t in [1.0, 1.5] {
         let told = CLAIMS
             .into_iter()
-            .filter(|claim| Hypotheses { t, ..RIGHT }.imply(claim));
+            .filter(|claim| Hypotheses { t, ..RIGHT }.imply(*claim));
         assert_eq!(
             told.collect::<Vec<_>>(),
-            ["packing-disjoint", "corner-angles", "vertices-upper"]
+            [Claim::PackingDisjoint, Claim::CornerAngles, Claim::VerticesUpper]
         );
     }
 }
@@ -112,7 +114,7 @@ fn every_claim_needs_what_the_table_says() {
 /// A spacing that is flat comes down to corners only where it need not.
 #[test]
 fn corners_of_a_flat_spacing_can_be_cut_only_where_circles_leave_room_and_no_angle_is_small() {
-    let holds = |hypotheses: Hypotheses| hypotheses.imply("min-angle-beyond-corners");
+    let holds = |hypotheses: Hypotheses| hypotheses.imply(Claim::MinAngleBeyondCorners);
     let flat = Hypotheses { t: 0.03125, ..RIGHT };
     assert!(holds(flat) && holds(Hypotheses { c_b: 0.96875, ..flat }));
     assert!(!holds(Hypotheses { c_b: 0.97, ..flat }));
@@ -148,9 +150,9 @@ fn hypotheses_are_those_of_domain_and_spacing() {
         low_head_on: 7,
         ..RIGHT
     };
-    assert_eq!(Hypotheses::of(&square, &bounds, 7), expected);
+    assert_eq!(hypotheses(&square, &bounds, 7), expected);
     // A vertex with two angles inside is single only if both are 90° or more.
-    let single = |domain: &Domain| Hypotheses::of(domain, &bounds, 0).single_corners;
+    let single = |domain: &Domain| hypotheses(domain, &bounds, 0).single_corners;
     assert!(!single(&domain(&SQUARE, &[SQUARE[0], SQUARE[2]])));
     let ring = [SQUARE[0], p(0.5, 0.0), SQUARE[1], SQUARE[2], p(0.5, 1.0), SQUARE[3]];
     assert!(single(&domain(&ring, &[ring[1], ring[4]])));
@@ -159,7 +161,7 @@ fn hypotheses_are_those_of_domain_and_spacing() {
 
 #[test]
 fn the_angle_bound_is_that_of_theorem_6_8() {
-    let bounds = [0.0, 0.25, 0.5, 0.75].map(|t| min_angle_bound_deg(Rule::Earlier, t));
+    let bounds = [0.0, 0.25, 0.5, 0.75].map(|t| Promises { rule: Rule::Earlier, t }.min_angle_deg());
     let expected = [30.0, 14.477_512_185_929_925, 0.0, 0.0];
     for (found, expected) in bounds.into_iter().zip(expected) {
         assert!((found - expected).abs() < 1e-12, "{found} {expected}");
@@ -168,8 +170,8 @@ fn the_angle_bound_is_that_of_theorem_6_8() {
 
 #[test]
 fn a_certificate_lists_what_applies_and_does_not_hold() {
-    let check = |claim: &str, applies, holds| Check {
-        claim: claim.to_owned(),
+    let check = |claim: Claim, applies, holds| Check {
+        claim,
         lemma: String::new(),
         applies,
         worst: None,
@@ -180,10 +182,10 @@ fn a_certificate_lists_what_applies_and_does_not_hold() {
         witnesses: Vec::new(),
     };
     let checks = vec![
-        check("fine", true, true),
-        check("broken", true, false),
-        check("measured", false, false),
-        check("idle", false, true),
+        check(Claim::Area, true, true),
+        check(Claim::Coverage, true, false),
+        check(Claim::MinAngle, false, false),
+        check(Claim::CornerAngles, false, true),
     ];
     let certificate = Certificate {
         holds: false,
@@ -192,19 +194,16 @@ fn a_certificate_lists_what_applies_and_does_not_hold() {
         checks,
     };
     assert_eq!(
-        certificate
-            .broken()
-            .map(|check| check.claim.as_str())
-            .collect::<Vec<_>>(),
-        ["broken"]
+        certificate.broken().map(|check| check.claim).collect::<Vec<_>>(),
+        [Claim::Coverage]
     );
-    assert_eq!(certificate.check("measured"), Some(&certificate.checks[2]));
-    assert_eq!(certificate.check("other"), None);
+    assert_eq!(certificate.check(Claim::MinAngle), Some(&certificate.checks[2]));
+    assert_eq!(certificate.check(Claim::VerticesUpper), None);
 }
 
 #[test]
 fn checks_apply_only_under_their_hypotheses() {
-    let implied = |hypotheses: Hypotheses| CLAIMS.into_iter().filter(|claim| hypotheses.imply(claim)).count();
+    let implied = |hypotheses: Hypotheses| CLAIMS.into_iter().filter(|claim| hypotheses.imply(*claim)).count();
     assert_eq!(implied(RIGHT), 12);
     assert_eq!(
         implied(Hypotheses {
@@ -237,14 +236,14 @@ fn checks_apply_only_under_their_hypotheses() {
         ..flat
     };
     assert_eq!(implied(flat), 12);
-    assert!(!flat_and_acute.imply("min-angle-beyond-corners") && !flat_and_acute.imply("corner-angles"));
+    assert!(!flat_and_acute.imply(Claim::MinAngleBeyondCorners) && !flat_and_acute.imply(Claim::CornerAngles));
     let (square, good) = (domain(&SQUARE, &[]), fan(p(0.5, 0.5)));
     let none = Bounds {
         guaranteed: &[],
         ..bounds(&UNIFORM, 0.3)
     };
     let (_, certificate) = judge(&square, &good, Some(&none));
-    assert!(certificate.holds && !certificate.check("coverage").unwrap().holds);
+    assert!(certificate.holds && !certificate.check(Claim::Coverage).unwrap().holds);
 }
 
 #[test]
@@ -289,16 +288,8 @@ fn distances_inside_the_domain_need_a_small_t_and_the_rule_of_the_paper() {
 /// A corner of 45° and one of 225° at a vertex, with angles outside of 45° each; and without the larger one.
 #[test]
 fn a_corner_hides_what_lies_behind_it_where_the_angle_outside_is_below_180_degrees() {
-    let bounds = Bounds {
-        spacing: &UNIFORM,
-        c_b: 0.5,
-        rule: Rule::Earlier,
-        lfs_cap: true,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &[],
-    };
-    let hides = |domain: &Domain| Hypotheses::of(domain, &bounds, 0).corners_hide;
+    let bounds = bounds(&UNIFORM, 0.5);
+    let hides = |domain: &Domain| hypotheses(domain, &bounds, 0).corners_hide;
     let corner = |ends: &[(f64, f64)]| {
         let mut pslg = Pslg::new("corner");
         pslg.add_ring(ends.iter().map(|&(x, y)| DVec2::new(x, y)), 1);

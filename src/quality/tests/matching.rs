@@ -2,9 +2,10 @@
 
 use super::*;
 use crate::quality::boundary::Boundary;
+use crate::theory::Claim;
 
 /// What is broken where the lower side of the square is cut at a point near (½, 0).
-fn cut_at(middle: DVec2, shift: DVec2) -> Vec<String> {
+fn cut_at(middle: DVec2, shift: DVec2) -> Vec<Claim> {
     let ring = SQUARE.map(|x| x + shift);
     let points = [&ring[..], &[middle + shift]].concat();
     broken(
@@ -16,21 +17,21 @@ fn cut_at(middle: DVec2, shift: DVec2) -> Vec<String> {
 
 #[test]
 fn a_piece_lies_along_its_segment_to_a_billionth_of_its_length() {
-    let off = ["input-segments", "boundary-on-segments"];
+    let off = [Claim::InputSegments, Claim::BoundaryOnSegments];
     for sign in [1.0, -1.0] {
-        assert_eq!(cut_at(p(0.5, sign * 0.4e-9), DVec2::ZERO), [""; 0]);
+        assert_eq!(cut_at(p(0.5, sign * 0.4e-9), DVec2::ZERO), []);
         assert_eq!(cut_at(p(0.5, sign * 0.6e-9), DVec2::ZERO), off);
         // Short pieces may be off by four ulp of the largest coordinate, here 8.9e-16, and by no more.
-        assert_eq!(cut_at(p(1e-8, sign * 8e-16), DVec2::ZERO), [""; 0]);
+        assert_eq!(cut_at(p(1e-8, sign * 8e-16), DVec2::ZERO), []);
         let loose = cut_at(p(1e-8, sign * 1e-15), DVec2::ZERO);
-        assert!(loose.contains(&off[0].to_owned()), "{loose:?}");
+        assert!(loose.contains(&off[0]), "{loose:?}");
     }
     // At a million an ulp is 1.2e-10.
     let far = DVec2::splat((1u32 << 20) as f64);
     let ulp = (1u32 << 20) as f64 * f64::EPSILON;
-    assert_eq!(cut_at(p(0.5, 4.0 * ulp), far), [""; 0]);
+    assert_eq!(cut_at(p(0.5, 4.0 * ulp), far), []);
     let loose = cut_at(p(0.5, 8.0 * ulp), far);
-    assert!(loose.contains(&off[0].to_owned()), "{loose:?}");
+    assert!(loose.contains(&off[0]), "{loose:?}");
 }
 
 #[test]
@@ -45,7 +46,7 @@ fn a_vertex_is_found_within_four_ulp_of_the_largest_coordinate_and_no_further() 
                     let mut points = [kite[2], kite[3], kite[1], kite[0]];
                     points[moved] += sign * ulps * ulp * axis;
                     let is_found = !broken(&domain(&kite, &[]), &mesh(&points, &[[3, 2, 1], [2, 0, 1]]), None)
-                        .contains(&"input-vertices".to_string());
+                        .contains(&Claim::InputVertices);
                     // Beside 4, doubles are coarser above.
                     assert!(
                         is_found == expected || points[moved].x > 4.0,
@@ -75,7 +76,7 @@ fn vertices_above_one_another_are_told_apart() {
         let triangles = [[0, 1, 5], [5, 1, 4], [4, 1, 2], [4, 2, 3]].map(|corners| corners.map(&at));
         let found = broken(&domain(&ring, &[]), &mesh(&points, &triangles), None);
         assert!(
-            !found.iter().any(|claim| claim.starts_with("input")),
+            !found.iter().any(|claim| claim.name().starts_with("input")),
             "{nudge}: {found:?}"
         );
     }
@@ -89,14 +90,14 @@ fn a_broken_chain_is_told_where_it_breaks() {
     // Nothing joins the two points on the lower side.
     let open = mesh(&points, &[[0, 4, 6], [5, 1, 6], [1, 2, 6], [2, 3, 6], [3, 0, 6]]);
     let (_, certificate) = judge(&square, &open, None);
-    let check = certificate.check("input-segments").unwrap();
+    let check = certificate.check(Claim::InputSegments).unwrap();
     assert_eq!((check.worst, check.broken, check.at), (Some(1.0), 1, Some([0.25, 0.0])));
     assert_eq!(check.witnesses, [[0.25, 0.0]]);
     // A vertex that is not there is told by where it should be.
     let without = mesh(&SQUARE[..3], &[[0, 1, 2]]);
     let (_, certificate) = judge(&square, &without, None);
-    assert_eq!(certificate.check("input-vertices").unwrap().witnesses, [[0.0, 1.0]]);
-    assert_eq!(certificate.check("input-segments").unwrap().broken, 2);
+    assert_eq!(certificate.check(Claim::InputVertices).unwrap().witnesses, [[0.0, 1.0]]);
+    assert_eq!(certificate.check(Claim::InputSegments).unwrap().broken, 2);
 }
 
 /// Edges beyond the end, backwards, or beside the segment are none of its pieces.
@@ -106,9 +107,12 @@ fn a_chain_takes_the_edge_that_follows_the_segment_best_and_no_further_than_its_
     let ring = [p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(2.0, 1.0), p(0.0, 1.0)];
     let jumped = mesh(&ring, &[[0, 2, 3], [0, 3, 4]]);
     let found = broken(&domain(&ring, &[]), &jumped, None);
-    assert_eq!(found, ["vertices-used", "input-segments", "boundary-on-segments"]);
+    assert_eq!(
+        found,
+        [Claim::VerticesUsed, Claim::InputSegments, Claim::BoundaryOnSegments]
+    );
     let whole = mesh(&ring, &[[0, 1, 4], [1, 3, 4], [1, 2, 3]]);
-    assert_eq!(broken(&domain(&ring, &[]), &whole, None), [""; 0]);
+    assert_eq!(broken(&domain(&ring, &[]), &whole, None), []);
 }
 
 /// Of two points within four ulp the one with the very coordinates is the vertex.
@@ -146,7 +150,10 @@ fn of_edges_that_all_follow_a_segment_the_chain_takes_the_straightest() {
             let points = [&SQUARE[..], &middles].concat();
             let triangles = [[0, m, n], [m, 1, n], [0, n, 3], [n, 2, 3], [n, 1, 2]];
             let found = broken(&domain(&SQUARE, &[]), &mesh(&points, &triangles), None);
-            assert!(!found.iter().any(|claim| claim.ends_with("segments")), "{found:?}");
+            assert!(
+                !found.iter().any(|claim| claim.name().ends_with("segments")),
+                "{found:?}"
+            );
         }
     }
 }
@@ -159,6 +166,10 @@ fn two_vertices_in_one_place_are_judged_and_no_walk_goes_round_between_them() {
     // The left side ends at the second of the two: an edge of no length leads nowhere.
     assert_eq!(
         found,
-        ["positive-orientation", "input-segments", "boundary-on-segments"]
+        [
+            Claim::PositiveOrientation,
+            Claim::InputSegments,
+            Claim::BoundaryOnSegments
+        ]
     );
 }

@@ -1,8 +1,9 @@
 //! Where a value is a share of a billionth beside its bound, it holds; further beside, it does not.
 
 use super::*;
+use crate::theory::Claim;
 
-fn holds(domain: &Domain, mesh: &Mesh, spacing: &dyn Spacing, c_b: f64, claim: &str) -> bool {
+fn holds(domain: &Domain, mesh: &Mesh, spacing: &dyn Spacing, c_b: f64, claim: Claim) -> bool {
     judge(domain, mesh, Some(&bounds(spacing, c_b)))
         .1
         .check(claim)
@@ -25,7 +26,7 @@ fn the_smallest_angle_may_be_a_billionth_under_the_bound() {
     for (share, expected) in [(0.9e-9, true), (1.1e-9, false)] {
         let points = [&SQUARE[..], &thirty(share, DVec2::ZERO)].concat();
         let one = mesh(&points, &[[4, 5, 6]]);
-        for claim in ["min-angle", "min-angle-beyond-corners"] {
+        for claim in [Claim::MinAngle, Claim::MinAngleBeyondCorners] {
             assert_eq!(
                 holds(&domain(&SQUARE, &[]), &one, &UNIFORM, 0.5, claim),
                 expected,
@@ -44,7 +45,7 @@ fn an_angle_at_a_corner_may_be_a_billionth_and_the_rounding_of_its_shortest_side
         for (share, expected) in [(0.8, true), (1.2, false)] {
             let points = [&thirty(0.0, shift)[..], &thirty(share * room, shift)[2..]].concat();
             for corners in [[0, 1, 3], [1, 3, 0], [3, 0, 1]] {
-                let found = holds(&domain, &mesh(&points, &[corners]), &UNIFORM, 0.3, "corner-angles");
+                let found = holds(&domain, &mesh(&points, &[corners]), &UNIFORM, 0.3, Claim::CornerAngles);
                 assert_eq!(found, expected, "{share} of the room at {shift}");
             }
         }
@@ -62,7 +63,7 @@ fn circles_may_meet_a_billionth_lower_than_9() {
     for (share, expected) in [(0.7e-9, true), (0.85e-9, false)] {
         let c_b = (1.0 - share) / 3.0;
         assert_eq!(
-            holds(&domain(&SQUARE, &[]), &cut, &UNIFORM, c_b, "boundary-height"),
+            holds(&domain(&SQUARE, &[]), &cut, &UNIFORM, c_b, Claim::BoundaryHeight),
             expected,
             "{share}"
         );
@@ -88,7 +89,7 @@ fn heights_are_over_the_smaller_radius() {
         slope: p(1.0, 0.0),
     };
     let (_, certificate) = judge(&domain(&ring, &[]), &cut, Some(&bounds(&graded, 0.5)));
-    let check = certificate.check("boundary-height").unwrap();
+    let check = certificate.check(Claim::BoundaryHeight).unwrap();
     // Along the upper side radii are ½ and 1: by Pythagoras the foot is ⅛ behind the first. Around (½, 0) and (1, 0), where
     // they are ¾ and 1, it is 3/16 before the first, and the height the same share; elsewhere circles meet higher.
     let height = (0.25f64 - 1.0 / 64.0).sqrt() / 0.5;

@@ -113,7 +113,7 @@ fn certificates(rows: &[Row]) -> Finding {
         .iter()
         .filter_map(|row| {
             let certificate = &summary::measured(row)?.certificate;
-            let claims: Vec<&str> = certificate.broken().map(|check| check.claim.as_str()).collect();
+            let claims: Vec<&str> = certificate.broken().map(|check| check.claim.name()).collect();
             (!certificate.holds).then(|| format!("{} ({})", row.key, claims.join(", ")))
         })
         .collect();
@@ -139,7 +139,7 @@ fn whole_certificates(rows: &[Row], largest_t: f64) -> Finding {
         .iter()
         .filter_map(|(row, report)| {
             let claims = report.certificate.checks.iter().filter(|check| !check.holds);
-            let claims: Vec<&str> = claims.map(|check| check.claim.as_str()).collect();
+            let claims: Vec<&str> = claims.map(|check| check.claim.name()).collect();
             (!claims.is_empty()).then(|| format!("{} ({})", row.key, claims.join(", ")))
         })
         .collect();

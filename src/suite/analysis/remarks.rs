@@ -7,6 +7,7 @@ use crate::suite::analysis::contest::{Contest, Method, seconds_per_triangle};
 use crate::suite::analysis::summary::measured;
 use crate::suite::rows::numbers::median;
 use crate::suite::rows::record::{Report, Row};
+use crate::theory::Claim;
 use serde_json::Value;
 
 /// The parameter by which a method says how many points it samples along a side of a leaf.
@@ -39,7 +40,7 @@ pub struct Sampling {
 
 /// How many circles border a gap, over how many there are.
 pub fn gap_share(report: &Report) -> Option<f64> {
-    let check = report.certificate.check("coverage")?;
+    let check = report.certificate.check(Claim::Coverage)?;
     Some(check.broken as f64 / report.statistics.vertices.max(1) as f64)
 }
 

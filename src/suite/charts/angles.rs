@@ -4,10 +4,9 @@ use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::legend::{Entry, Key, legend};
 use super::panel::{Axis, Panel};
 use super::style::{self, GREY, INK, Marker};
-use crate::quality::min_angle_bound_deg;
-use crate::spacing::Rule;
 use crate::suite::analysis::summary::{Grid, Setting, setting};
 use crate::suite::rows::record::Report;
+use crate::theory::{Promises, Rule};
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
 
@@ -69,7 +68,7 @@ impl Figure for SmallestAngle<'_> {
         let mut panel = Panel::new(&left, "", x, y, 70)?;
         let curve: Vec<_> = (0..=100)
             .map(|k| f64::from(k) * 0.005)
-            .map(|t| (t, min_angle_bound_deg(Rule::Earlier, t)))
+            .map(|t| (t, Promises { rule: Rule::Earlier, t }.min_angle_deg()))
             .collect();
         panel.line(&curve, INK, 2 * FINE as u32)?;
         let middle = (self.grid.c_bs.len() as f64 - 1.0) / 2.0;

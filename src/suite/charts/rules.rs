@@ -4,10 +4,9 @@ use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::legend::{Entry, Key, legend};
 use super::panel::{Axis, Panel};
 use super::style::{self, GREY, Marker};
-use crate::quality::min_angle_bound_deg;
-use crate::spacing::Rule;
 use crate::suite::analysis::summary::{is_acute, measured, parameter};
 use crate::suite::rows::record::{Report, Row};
+use crate::theory::{Promises, Rule};
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
 
@@ -73,7 +72,7 @@ impl Figure for Rules<'_> {
         let mut panel = Panel::new(&left, "", x, y, 70)?;
         for (index, (rule, name, ..)) in RULES.iter().enumerate() {
             let ts = (0..=100).map(|k| f64::from(k) * 0.01 * reach);
-            let curve: Vec<_> = ts.map(|t| (t, min_angle_bound_deg(*rule, t))).collect();
+            let curve: Vec<_> = ts.map(|t| (t, Promises { rule: *rule, t }.min_angle_deg())).collect();
             panel.line(&curve, style::ordered(index, RULES.len()), 2 * FINE as u32)?;
             for report in self.reports(name) {
                 let own = marker(index);

@@ -51,7 +51,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let targets = Target::parse_all(&arguments.out)?;
     let cell = arguments.cell()?;
-    let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
+    let mesher = runner::mesher(&cell).map_err(Failure::Input)?;
     let request = Request {
         seed: cell.seed,
         budget: arguments.limits.budget(),
@@ -59,8 +59,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let store = Store::new(None, false).up_to(request.budget.max_vertices);
     let (_, prepared) = stages::prepare(store, &cell, &request.budget)?;
-    let (prepared, run) = stages::mesh(prepared, mesher, request)?;
-    let (prepared, run, report) = stages::judge(prepared, run, &cell, entry, &request.budget)?;
+    let (prepared, mesher, run) = stages::mesh(prepared, mesher, request)?;
+    let (prepared, run, report) = stages::judge((prepared, mesher), run, &cell, &request.budget)?;
     say(table(&report.rounds));
     if let Some(solution) = &report.poisson {
         say(format_args!(

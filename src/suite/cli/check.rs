@@ -6,10 +6,9 @@ use super::values::{parameter, positive};
 use crate::mesh::files;
 use crate::meshers::Parameters;
 use crate::quality::{self, Check};
-use crate::spacing::Rule;
-use crate::suite::peers;
 use crate::suite::rows::record::Cell;
 use crate::suite::run::prepare::Store;
+use crate::suite::run::runner;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -45,24 +44,17 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let store = Store::new(None, arguments.repair);
     let mesh = files::read(&arguments.mesh).map_err(Failure::input)?;
-    let entry = match &arguments.mesher {
-        Some(name) => Some(
-            peers::find(name)
-                .ok_or_else(|| Failure::Input(format!("there is no mesher `{name}`; `biting list` shows them")))?,
-        ),
-        None => None,
-    };
     let domain = store.domain(&arguments.domain).map_err(Failure::input)?;
     say_notes(&store, &domain);
     let (_, certificate) = match (&arguments.spacing, arguments.t, arguments.c_b) {
         (Some(spacing), Some(t), Some(c_b)) => {
             let cell = arguments.cell(spacing, t, c_b);
             let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
-            let guarantees = entry.map_or_else(Vec::new, |entry| {
-                entry.guaranteed(&arguments.params(), &domain, &*prepared.spacing, c_b)
-            });
-            let rule = entry.map_or_else(Rule::default, |entry| entry.rule(&arguments.params()));
-            quality::judge(&domain, &mesh, Some(&prepared.bounds(c_b, rule, &guarantees)))
+            let case = prepared.case(c_b);
+            match &arguments.mesher {
+                Some(_) => case.judge_of(&mesh, &*runner::mesher(&cell).map_err(Failure::Input)?),
+                None => case.judge(&mesh),
+            }
         }
         _ => quality::judge(&domain, &mesh, None),
     };

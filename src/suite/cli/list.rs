@@ -3,10 +3,11 @@
 use super::exit::Outcome;
 use super::output::say;
 use crate::domain::gallery;
-use crate::meshers::{Entry, Guarantee, MESHERS};
+use crate::meshers::{Entry, MESHERS, Parameters};
 use crate::spacing;
 use crate::suite::peers::{PEERS, install};
 use crate::suite::run::plan::Plan;
+use crate::theory::Guarantee;
 use std::path::{Path, PathBuf};
 
 /// Where the experiments stand in a checkout.
@@ -34,7 +35,7 @@ pub fn run() -> Outcome {
     say("  FILE.poly, FILE.geojson\n\nMeshers");
     for entry in MESHERS {
         say_entry(entry);
-        say(format_args!("    guarantees {}", guarantees(entry)));
+        say(format_args!("    guarantees by default {}", guarantees(entry)));
     }
     say("\nMeshers outside this crate");
     for entry in PEERS {
@@ -73,19 +74,15 @@ fn say_entry(entry: &Entry) {
     }
 }
 
-/// The claims a method guarantees beyond the structural ones, with the parameters they need.
+/// The claims a method guarantees with its defaults beyond the structural ones.
 fn guarantees(entry: &Entry) -> String {
-    let one = |guarantee: &Guarantee| {
-        let with = guarantee.with.iter().map(|(name, value)| format!("{name}={value}"));
-        let plain = guarantee.plain.then(|| "no angle under 90°, c_b + t ≤ 1".to_owned());
-        let needs: Vec<String> = with.chain(plain).collect();
-        match needs.is_empty() {
-            true => guarantee.claim.to_owned(),
-            false => format!("{} ({})", guarantee.claim, needs.join(", ")),
-        }
+    let guarantees = (entry.make)(&Parameters::new()).map_or_else(|_| Vec::new(), |mesher| mesher.guarantees());
+    let one = |guarantee: Guarantee| match guarantee.plain {
+        true => format!("{} (no angle under 90°, c_b + t ≤ 1)", guarantee.claim),
+        false => guarantee.claim.to_string(),
     };
     let structure = std::iter::once("structure".to_owned());
-    let all: Vec<String> = structure.chain(entry.guarantees.iter().map(one)).collect();
+    let all: Vec<String> = structure.chain(guarantees.into_iter().map(one)).collect();
     all.join(", ")
 }
 

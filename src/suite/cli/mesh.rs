@@ -57,13 +57,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
         )));
     }
     let cell = arguments.asked.cell(&arguments.domain, &arguments.mesher)?;
-    let (entry, mesher) = runner::mesher(&cell).map_err(Failure::Input)?;
+    let mesher = runner::mesher(&cell).map_err(Failure::Input)?;
     let request = arguments.request();
     let store = Store::new(arguments.limit_factor, arguments.repair);
     let (store, prepared) = stages::prepare(store, &cell, &request.budget)?;
     output::say_notes(&store, &prepared.site.domain);
-    let (prepared, run) = stages::mesh(prepared, mesher, request)?;
-    let (prepared, run, report) = stages::judge(prepared, run, &cell, entry, &request.budget)?;
+    let (prepared, mesher, run) = stages::mesh(prepared, mesher, request)?;
+    let (prepared, run, report) = stages::judge((prepared, mesher), run, &cell, &request.budget)?;
     let mut written = Vec::new();
     for target in &targets {
         written.extend(output::write(target, &prepared.site.domain, &run.mesh)?);
@@ -93,11 +93,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// Draws what the spacing is made of.
 fn draw_maps(prepared: &Prepared, stem: &Path) -> Result<[PathBuf; 2], Failure> {
-    let spec = Spec::parse(&prepared.spec).map_err(Failure::input)?;
+    let spec = Spec::parse(&prepared.spacing.spec).map_err(Failure::input)?;
     let site = &prepared.site;
-    let ingredients =
-        Ingredients::new(&spec, &site.domain, prepared.lfs_cap, || Ok(site.lfs.clone())).map_err(Failure::input)?;
-    charts::spacing_maps(&site.domain, &ingredients, &*prepared.spacing, stem).map_err(Failure::input)?;
+    let ingredients = Ingredients::new(&spec, &site.domain, prepared.spacing.lfs_cap, || Ok(site.lfs.clone()))
+        .map_err(Failure::input)?;
+    charts::spacing_maps(&site.domain, &ingredients, &*prepared.spacing.function, stem).map_err(Failure::input)?;
     Ok(["svg", "png"].map(|ending| stem.with_extension(ending)))
 }
 

@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn small_values_are_told_with_their_digits() {
         let check = |worst, bound| Check {
-            claim: "area".into(),
+            claim: crate::theory::Claim::Area,
             lemma: String::new(),
             applies: true,
             worst: Some(worst),

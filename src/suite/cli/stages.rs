@@ -3,7 +3,7 @@
 use super::budget;
 use super::exit::Failure;
 use crate::domain::Domain;
-use crate::meshers::{Budget, Entry, MeshError, Mesher, Request};
+use crate::meshers::{Budget, MeshError, Mesher, Request};
 use crate::spacing;
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{Cell, Report};
@@ -74,7 +74,11 @@ fn expected(integral: f64, c_b: f64) -> String {
 }
 
 /// Meshes, and tells what was to be expected where a budget ends that.
-pub fn mesh(prepared: Prepared, mesher: Box<dyn Mesher>, request: Request) -> Result<(Prepared, Run), Failure> {
+pub fn mesh(
+    prepared: Prepared,
+    mesher: Box<dyn Mesher>,
+    request: Request,
+) -> Result<(Prepared, Box<dyn Mesher>, Run), Failure> {
     let integral = prepared.integral.value;
     let expected = expected(integral, request.c_b);
     let place = prepared.site.lfs.narrowest();
@@ -87,30 +91,29 @@ pub fn mesh(prepared: Prepared, mesher: Box<dyn Mesher>, request: Request) -> Re
         )));
     }
     let told = || format!("meshing, in a step that does not place vertices; {place}; {expected}; raise the budget");
-    let (prepared, run) = budget::within(&request.budget, PATIENCE, told, move || {
+    let (prepared, mesher, run) = budget::within(&request.budget, PATIENCE, told, move || {
         let run = measure::run(&prepared, &*mesher, &request);
-        (prepared, run)
+        (prepared, mesher, run)
     })?;
     let run = run.map_err(|error| match error {
         MeshError::Budget { .. } => Failure::Declined(format!("{error}; {place}; {expected}")),
         MeshError::Declined(_) => Failure::Declined(error.to_string()),
         _ => Failure::input(error),
     })?;
-    Ok((prepared, run))
+    Ok((prepared, mesher, run))
 }
 
 /// Judges within the same budget.
 pub fn judge(
-    prepared: Prepared,
+    (prepared, mesher): (Prepared, Box<dyn Mesher>),
     run: Run,
     cell: &Cell,
-    entry: &'static Entry,
     budget: &Budget,
 ) -> Result<(Prepared, Run, Report), Failure> {
     let (triangles, place, cell) = (run.mesh.triangles.len(), prepared.site.lfs.narrowest(), cell.clone());
     let told = || format!("judging a finished mesh of {triangles} triangles; {place}; raise the budget");
     budget::within(budget, Duration::ZERO, told, move || {
-        let report = measure::judge(&prepared, &cell, entry, &run, &machine::provenance());
+        let report = measure::judge(&prepared, &cell, &*mesher, &run, &machine::provenance());
         (prepared, run, report)
     })
 }

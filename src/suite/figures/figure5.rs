@@ -4,9 +4,10 @@ use super::drawing::{self, Drawing, Numbers, Picture};
 use super::edge::{self, Middle, Progressive, difference};
 use super::run::{Run, short};
 use crate::geometry::DVec2;
-use crate::geometry::near::{Disc, least_meeting_height};
+use crate::geometry::near::Disc;
 use crate::suite::charts::scene::{Fill, Mark, Pen, Scene, Sheet};
 use crate::suite::lemmas::statements::least_progressive_height;
+use crate::theory::least_meeting_height;
 
 /// A bite of each label.
 pub(super) struct Figure5<'a> {

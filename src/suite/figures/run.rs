@@ -9,9 +9,10 @@ use crate::geometry::tolerance::ALONG_SEGMENT;
 use crate::mesh::{Mesh, Piece};
 use crate::meshers::biting::{Biting, Corners, HeadOn, Order, TO_THE_LETTER};
 use crate::meshers::{Bite, Budget, Mesher, Reason, Request, Trace};
-use crate::spacing::{self, Options, Rule, Spacing};
+use crate::spacing::{self, Options, Spacing};
 use crate::suite::rows::record::{Cell, quoted};
 use crate::suite::run::measure::fingerprint;
+use crate::theory::Rule;
 use rayon::prelude::*;
 use std::sync::Arc;
 

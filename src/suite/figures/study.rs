@@ -3,10 +3,11 @@
 use super::Material;
 use super::drawing::{Drawing, Numbers, Picture};
 use super::run::short;
+use crate::Case;
 use crate::domain::{self, Domain};
 use crate::geometry::DVec2;
 use crate::mesh::Mesh;
-use crate::meshers::{MESHERS, Parameters, Request, Trace};
+use crate::meshers::{MESHERS, Parameters};
 use crate::quality::angles_deg;
 use crate::spacing::{self, Ingredients, Options, Spacing, Spec, lfs_of};
 use crate::suite::analysis::series::{TimeSeries, time_series};
@@ -185,13 +186,14 @@ const C_B: f64 = 0.75;
 /// The domain by every mesher, under its name.
 fn by_every_mesher() -> Result<Vec<(&'static str, Mesh)>, String> {
     let domain = domain::load(SHOWN).map_err(|error| error.to_string())?;
-    let prepared = spacing::build(SPACING, &domain, &Options::new(T, C_B)).map_err(|error| error.to_string())?;
-    let request = Request::new(C_B);
+    let case = Case::new(domain, SPACING, T, C_B).map_err(|error| error.to_string())?;
     let made = MESHERS.iter().map(|entry| {
         let told = |error: String| format!("{} on {SHOWN}: {error}", entry.name);
         let mesher = (entry.make)(&Parameters::new()).map_err(told)?;
-        let mesh = mesher.mesh(&domain, &*prepared.function, &request, &mut Trace::default());
-        Ok((entry.name, mesh.map_err(|error| told(error.to_string()))?))
+        Ok((
+            entry.name,
+            case.mesh(&*mesher).map_err(|error| told(error.to_string()))?,
+        ))
     });
     made.collect()
 }

@@ -89,7 +89,7 @@ impl MeshRun {
 
 /// Makes the mesh of `cell` and judges it.
 pub(super) fn report(cell: &Cell) -> Result<Report, String> {
-    let (entry, mesher) = runner::mesher(cell)?;
+    let mesher = runner::mesher(cell)?;
     let prepared = Store::new(None, false)
         .prepare_for_t(cell)
         .map_err(|error| error.to_string())?;
@@ -98,7 +98,7 @@ pub(super) fn report(cell: &Cell) -> Result<Report, String> {
         ..Request::new(cell.c_b)
     };
     let run = measure::run(&prepared, &*mesher, &request).map_err(|error| error.to_string())?;
-    Ok(measure::judge(&prepared, cell, entry, &run, &machine::provenance()))
+    Ok(measure::judge(&prepared, cell, &*mesher, &run, &machine::provenance()))
 }
 
 /// Lemma 2.1's strip: a rectangle 2 high and 12 long, with f = 2 + dist(x, ∂Ω) held to lfs at its ends.

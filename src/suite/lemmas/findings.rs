@@ -3,6 +3,7 @@
 
 use super::demonstration::{Demonstration, MeshRun, right_angle, shown, strip};
 use crate::suite::rows::record::Report;
+use crate::theory::Claim;
 
 /// How grave a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,13 +76,13 @@ fn overlaps(report: &Report) -> Vec<super::demonstration::Shown> {
     vec![
         shown(
             "smallest |x − y| / (c_p (f(x) + f(y))), to be at least 1",
-            check("packing-disjoint")
+            check(Claim::PackingDisjoint)
                 .and_then(|check| check.worst)
                 .unwrap_or(f64::NAN),
         ),
         shown(
             "overlapping pairs of packing circles",
-            check("packing-disjoint").map_or(0.0, |check| check.broken as f64),
+            check(Claim::PackingDisjoint).map_or(0.0, |check| check.broken as f64),
         ),
         shown("smallest angle, degrees", report.statistics.min_angle_deg),
         shown("asin(1/2 − t), degrees", report.min_angle_bound_deg),

@@ -1,6 +1,7 @@
 //! A statement of the paper as data: formula, hypotheses, range, what rests on it.
 
 use super::search::{Effort, Problem, Sense};
+use crate::theory::Claim;
 
 /// A bound as a function of the parameter.
 pub type Formula = fn(f64) -> f64;
@@ -84,7 +85,7 @@ pub struct Corrected {
 #[derive(Clone, Copy)]
 pub struct Measured {
     /// The check of the certificate.
-    pub claim: &'static str,
+    pub claim: Claim,
     /// Which way the check bounds: of counts of vertices the other way than the integral that the statement is about.
     pub sense: Sense,
     /// The statement's quantity from the check's worst value, c_b and t; absent where the check measures a consequence.

@@ -9,14 +9,12 @@ pub static PEERS: &[Entry] = &[
         name: "triangle",
         summary: "Triangle 1.6: Delaunay refinement with off-centres (Shewchuk 1996; Üngör 2004)",
         parameters: &[ANGLE, PASSES, SIZE],
-        guarantees: &[],
         make: |given| peer("triangle", given),
     },
     Entry {
         name: "meshpy",
         summary: "Triangle by way of MeshPy, the size function as a callback",
         parameters: &[ANGLE, SIZE],
-        guarantees: &[],
         make: |given| peer("meshpy", given),
     },
     Entry {
@@ -28,7 +26,6 @@ pub static PEERS: &[Entry] = &[
             default: "frontal-delaunay",
             help: "which of Gmsh's algorithms",
         }],
-        guarantees: &[],
         make: |given| peer("gmsh", given),
     },
     Entry {
@@ -49,7 +46,6 @@ pub static PEERS: &[Entry] = &[
             },
             SIZE,
         ],
-        guarantees: &[],
         make: |given| peer("cgal", given),
     },
     Entry {
@@ -75,7 +71,6 @@ pub static PEERS: &[Entry] = &[
                 help: "how fast the size may grow away from where it is restricted",
             },
         ],
-        guarantees: &[],
         make: |given| peer("netgen", given),
     },
     Entry {
@@ -87,7 +82,6 @@ pub static PEERS: &[Entry] = &[
             default: "5",
             help: "runs, the metric taken anew on the mesh of the one before",
         }],
-        guarantees: &[],
         make: |given| peer("mmg", given),
     },
     Entry {
@@ -99,7 +93,6 @@ pub static PEERS: &[Entry] = &[
             default: "10",
             help: "rounds of split, collapse, flip and smooth",
         }],
-        guarantees: &[],
         make: |given| peer("pymeshlab", given),
     },
     Entry {
@@ -111,21 +104,18 @@ pub static PEERS: &[Entry] = &[
             default: "6",
             help: "calls of adaptmesh, the metric taken anew on the mesh of the one before",
         }],
-        guarantees: &[],
         make: |given| peer("bamg", given),
     },
     Entry {
         name: "spade",
         summary: "spade's own Delaunay refinement",
         parameters: &[ANGLE, SIZE],
-        guarantees: &[],
         make: |given| peer("spade", given),
     },
     Entry {
         name: "tritet",
         summary: "Triangle from Rust by way of tritet, uniform sizes only",
         parameters: &[ANGLE, SIZE],
-        guarantees: &[],
         make: |given| peer("tritet", given),
     },
 ];

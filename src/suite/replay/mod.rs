@@ -22,10 +22,10 @@ pub use record::{About, Bites, Frame, Outline, Queue, Recording};
 
 use crate::files::write_whole;
 use crate::meshers::{Budget, MeshError, Request, Trace};
-use crate::spacing::Rule;
 use crate::suite::rows::record::Cell;
 use crate::suite::run::prepare::Store;
 use crate::suite::run::runner;
+use crate::theory::Rule;
 use std::path::{Path, PathBuf};
 
 /// A page of more bites would be larger than 3 MB or so, and no longer play smoothly.
@@ -70,8 +70,8 @@ pub fn write(folder: &Path, cell: &Cell) -> Result<PathBuf, ReplayError> {
 /// Bites as `cell` asks, and records it.
 fn recording(cell: &Cell) -> Result<Recording, ReplayError> {
     let input = |error: &dyn std::fmt::Display| ReplayError::Input(error.to_string());
-    let (entry, mesher) = runner::mesher(cell).map_err(ReplayError::Input)?;
-    if entry.rule(&cell.params) == Rule::Later {
+    let mesher = runner::mesher(cell).map_err(ReplayError::Input)?;
+    if mesher.rule() == Rule::Later {
         let told = "a replay draws circles that bite, and by rule=later points eat what is no circle; leave out rule";
         return Err(ReplayError::Input(told.into()));
     }
@@ -87,7 +87,7 @@ fn recording(cell: &Cell) -> Result<Recording, ReplayError> {
         ..Request::new(cell.c_b)
     };
     let mut trace = Trace::watching();
-    let mesh = mesher.mesh(&prepared.site.domain, &*prepared.spacing, &request, &mut trace)?;
+    let mesh = prepared.case(cell.c_b).mesh_as(&*mesher, &request, &mut trace)?;
     let bites = trace.bites.unwrap_or_default();
     record::record(cell, &prepared, &mesh, &bites).map_err(ReplayError::Input)
 }

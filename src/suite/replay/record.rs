@@ -6,13 +6,13 @@ use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use crate::meshers::{Bite, Reason, Waiting};
 use crate::quality;
-use crate::spacing::Rule;
 use crate::suite::figures::labels::{self, Label};
 use crate::suite::replay::outline;
 use crate::suite::rows::record::Cell;
 use crate::suite::rows::record::{parameter_text, quoted};
 use crate::suite::run::measure;
 use crate::suite::run::prepare::Prepared;
+use crate::theory::{Promises, Rule};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
@@ -158,14 +158,14 @@ pub(super) fn record(cell: &Cell, prepared: &Prepared, mesh: &Mesh, bites: &[Bit
 fn about(cell: &Cell, prepared: &Prepared, mesh: &Mesh) -> About {
     let domain = &*prepared.site.domain;
     let (statistics, _) = quality::judge(domain, mesh, None);
-    let t = cell.c_b * prepared.spacing.lipschitz();
+    let t = prepared.case(cell.c_b).t();
     let order = measure::complete(cell)
         .get("order")
         .map(parameter_text)
         .unwrap_or_default();
     About {
         domain: domain.name().into(),
-        spacing: prepared.spec.clone(),
+        spacing: prepared.spacing.spec.clone(),
         order,
         c_b: cell.c_b,
         t,
@@ -175,7 +175,7 @@ fn about(cell: &Cell, prepared: &Prepared, mesh: &Mesh) -> About {
             cell.options()
         ),
         min_angle_deg: statistics.min_angle_free_deg,
-        min_angle_bound_deg: quality::min_angle_bound_deg(Rule::Earlier, t),
+        min_angle_bound_deg: Promises { rule: Rule::Earlier, t }.min_angle_deg(),
     }
 }
 

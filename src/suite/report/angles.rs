@@ -2,9 +2,9 @@
 
 use super::findings::{low_overlaps, margin, margins, ours};
 use super::markdown::{degrees, parameter, table};
-use crate::spacing::Rule;
 use crate::suite::analysis::summary::{Grid, Setting};
 use crate::suite::rows::record::Row;
+use crate::theory::{Promises, Rule};
 
 /// How far smallest angles lie above asin(1/2 − t).
 pub(super) fn angle_finding(rows: &[Row]) -> Option<String> {
@@ -71,7 +71,11 @@ pub(super) fn angles(rows: &[Row]) -> String {
                     degrees(spread.map(|s| s.median)),
                 ]
             });
-        let bound = crate::quality::min_angle_bound_deg(Rule::Earlier, margin.t);
+        let bound = Promises {
+            rule: Rule::Earlier,
+            t: margin.t,
+        }
+        .min_angle_deg();
         [parameter(margin.t), degrees(bound)].into_iter().chain(three).collect()
     });
     let head = [

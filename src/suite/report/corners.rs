@@ -10,6 +10,7 @@ use crate::suite::charts::{ChartError, side_by_side, window};
 use crate::suite::rows::numbers::{first_seen, quantile};
 use crate::suite::rows::record::{Report, Row};
 use crate::suite::run::prepare::Store;
+use crate::theory::Claim;
 use std::path::Path;
 
 /// Two rows that differ in what is done about corners.
@@ -181,7 +182,7 @@ pub(super) fn draw(store: &Store, rows: &[Row], folder: &Path) -> Result<Vec<Pic
 
 /// Where the smallest angle beyond corners is, and the longest edge of that triangle.
 fn worst(mesh: &Mesh, report: &Report) -> Option<(DVec2, f64)> {
-    let at = DVec2::from(report.certificate.check("min-angle")?.at?);
+    let at = DVec2::from(report.certificate.check(Claim::MinAngle)?.at?);
     let centroid = |t: usize| mesh.corners(t).iter().sum::<DVec2>() / 3.0;
     let near = |a: &usize, b: &usize| centroid(*a).distance(at).total_cmp(&centroid(*b).distance(at));
     let [a, b, c] = mesh.corners((0..mesh.triangles.len()).min_by(near)?);

@@ -5,6 +5,7 @@ use crate::suite::analysis::series::{OrderGroup, TimeSeries, order_groups, time_
 use crate::suite::analysis::summary::{Grid, Pair, Setting, by_spacing, is_ours, measured, setting};
 use crate::suite::rows::numbers::{first_seen, median, quantile};
 use crate::suite::rows::record::{Outcome, Report, Row};
+use crate::theory::Claim;
 
 /// How cells ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -113,7 +114,7 @@ pub(super) fn low_overlaps(rows: &[Row]) -> LowOverlaps {
         if setting(report) == Setting::Acute || !report.lfs_cap || report.t_effective > 1.0 / 3.0 {
             continue;
         }
-        let Some(check) = report.certificate.check("min-angle") else {
+        let Some(check) = report.certificate.check(Claim::MinAngle) else {
             continue;
         };
         let is_broken = usize::from(!check.holds);
@@ -201,7 +202,7 @@ fn best_on(groups: &[OrderGroup], group: &OrderGroup, value: fn(&Report) -> Opti
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ClaimTally {
     pub(super) mesher: String,
-    pub(super) claim: String,
+    pub(super) claim: Claim,
     pub(super) lemma: String,
     /// Cells in which it is guaranteed, and in how many of these it held.
     pub(super) guaranteed: (usize, usize),
@@ -220,7 +221,7 @@ pub(super) fn claims(rows: &[Row]) -> Vec<ClaimTally> {
         let place = known.unwrap_or_else(|| {
             tallies.push(ClaimTally {
                 mesher: report.mesher.clone(),
-                claim: check.claim.clone(),
+                claim: check.claim,
                 lemma: check.lemma.clone(),
                 guaranteed: (0, 0),
                 measured: (0, 0),
@@ -304,7 +305,7 @@ pub(super) fn broken_checks(rows: &[Row], applies: bool) -> Vec<Vec<String>> {
                 parameter(report.t),
                 parameter(report.t_effective),
                 parameter(report.c_b),
-                check.claim.clone(),
+                check.claim.to_string(),
                 number(check.worst),
                 number(check.bound),
                 check.broken.to_string(),

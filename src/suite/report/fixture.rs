@@ -2,6 +2,7 @@
 
 use crate::quality::{Certificate, Check, Statistics};
 use crate::suite::rows::record::{Cell, Outcome, Provenance, Report, Row, Seconds};
+use crate::theory::Claim;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
@@ -140,9 +141,9 @@ fn statistics(triangles: usize, smallest: f64) -> Statistics {
 
 fn certificate(smallest: f64, bound: f64) -> Certificate {
     let holds = smallest >= bound;
-    let check = |claim: &str, lemma: &str, worst: f64, bound: f64, holds: bool| Check {
-        claim: claim.into(),
-        lemma: lemma.into(),
+    let check = |claim: Claim, worst: f64, bound: f64, holds: bool| Check {
+        claim,
+        lemma: claim.lemma().into(),
         applies: true,
         worst: Some(worst),
         bound: Some(bound),
@@ -156,8 +157,8 @@ fn certificate(smallest: f64, bound: f64) -> Certificate {
         excused: 0,
         low_head_on: 0,
         checks: vec![
-            check("orientation", "", 1.0, 0.0, true),
-            check("min-angle", "Theorem 6.8", smallest, bound, holds),
+            check(Claim::PositiveOrientation, 1.0, 0.0, true),
+            check(Claim::MinAngle, smallest, bound, holds),
         ],
     }
 }

@@ -144,7 +144,7 @@ fn told(report: &Report) -> String {
 /// The mesh of a row, if its domain, spacing and mesher are still there and it comes out the same.
 pub(super) fn made_again(store: &Store, row: &Row, report: &Report) -> Option<Mesh> {
     let prepared = store.prepare_for_t(&row.cell).ok()?;
-    let (_, mesher) = mesher(&row.cell).ok()?;
+    let mesher = mesher(&row.cell).ok()?;
     let request = Request {
         c_b: report.c_b,
         seed: row.cell.seed,

@@ -92,7 +92,7 @@ fn boundaries(rows: &[Row]) -> String {
         let made = own.iter().filter(|row| row.report.is_some()).count();
         let domains = first_seen(broken.iter().map(|row| row.cell.domain.as_str()));
         let claims = broken.iter().filter_map(|row| row.report.as_ref());
-        let claims = claims.flat_map(|report| report.certificate.broken().map(|check| check.claim.as_str()));
+        let claims = claims.flat_map(|report| report.certificate.broken().map(|check| check.claim.name()));
         vec![
             name.to_owned(),
             format!("{} of {made}", made - broken.len()),

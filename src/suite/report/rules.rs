@@ -6,11 +6,10 @@
 
 use super::findings::of_group;
 use super::markdown::{degrees, number, parameter, table};
-use crate::quality::min_angle_bound_deg;
-use crate::spacing::Rule;
 use crate::suite::analysis::summary::{measured, parameter as named};
 use crate::suite::rows::numbers::{distinct, first_seen, median};
 use crate::suite::rows::record::{Report, Row};
+use crate::theory::{Promises, Rule};
 
 /// How a mesh by the rule of the later point relates to one by the paper's.
 struct Way {
@@ -191,10 +190,16 @@ fn line(pairs: &Pairs, way: &Way, order: &str, t: f64, c_b: f64) -> Vec<String> 
         both(t, way.t_times),
         both(c_b, way.c_b_times),
         format!("{} of {}", pairs.reports.len(), pairs.asked),
-        degrees(min_angle_bound_deg(Rule::Earlier, t)),
+        degrees(Promises { rule: Rule::Earlier, t }.min_angle_deg()),
         degrees(angles[0]),
         degrees(pairs.least_angle(0)),
-        degrees(min_angle_bound_deg(Rule::Later, way.t_times * t)),
+        degrees(
+            Promises {
+                rule: Rule::Later,
+                t: way.t_times * t,
+            }
+            .min_angle_deg(),
+        ),
         degrees(angles[1]),
         degrees(pairs.least_angle(1)),
         number(sizes[0]),

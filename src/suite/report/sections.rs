@@ -292,7 +292,7 @@ pub(super) fn certificate(rows: &[Row]) -> String {
         }
     };
     let meshers = first_seen(tallies.iter().map(|tally| tally.mesher.as_str()));
-    let claims = first_seen(tallies.iter().map(|tally| tally.claim.as_str()));
+    let claims = first_seen(tallies.iter().map(|tally| tally.claim.name()));
     let mut head = vec!["claim".to_string(), "paper".to_string()];
     for mesher in &meshers {
         head.extend([format!("{mesher}: held where guaranteed"), "held elsewhere".to_string()]);
@@ -301,7 +301,7 @@ pub(super) fn certificate(rows: &[Row]) -> String {
         let own = |mesher: &str| {
             tallies
                 .iter()
-                .find(|tally| tally.claim == claim && tally.mesher == mesher)
+                .find(|tally| tally.claim.name() == claim && tally.mesher == mesher)
         };
         let lemma = meshers
             .iter()

@@ -14,6 +14,7 @@ use crate::suite::analysis::summary::{Grid, frontier};
 use crate::suite::rows::record::{Outcome, Provenance, Row};
 use crate::suite::run::prepare::Store;
 use crate::suite::run::{measure, runner};
+use crate::theory::Claim;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -131,7 +132,7 @@ fn a_broken_bound_is_listed_with_its_place() {
     let rows = three_domains();
     let angle = claims(&rows)
         .into_iter()
-        .find(|tally| tally.claim == "min-angle")
+        .find(|tally| tally.claim == Claim::MinAngle)
         .unwrap();
     assert_eq!((angle.guaranteed, angle.measured), ((5, 4), (0, 0)));
     let broken = broken_checks(&rows, true);
@@ -170,7 +171,7 @@ fn a_page_of_nothing_measured() {
 fn in_earnest(domain: &str) -> Row {
     let mut row = cell(domain, 0.25, 0.5);
     let prepared = Store::new(None, false).prepare_for_t(&row.cell).unwrap();
-    let (entry, mesher) = runner::mesher(&row.cell).unwrap();
+    let mesher = runner::mesher(&row.cell).unwrap();
     let request = Request {
         c_b: 0.5,
         seed: 0,
@@ -181,7 +182,7 @@ fn in_earnest(domain: &str) -> Row {
     row.report = Some(measure::judge(
         &prepared,
         &row.cell,
-        entry,
+        &*mesher,
         &run,
         &Provenance::default(),
     ));

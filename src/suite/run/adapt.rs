@@ -151,7 +151,7 @@ impl Loop<'_> {
     }
 
     fn mesh(&self, spacing: &dyn Spacing) -> Result<Mesh, Ended> {
-        let (_, mesher) = mesher(self.cell)?;
+        let mesher = mesher(self.cell)?;
         let request = Request {
             c_b: self.cell.c_b,
             seed: self.cell.seed,

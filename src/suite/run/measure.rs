@@ -1,13 +1,13 @@
 //! One mesh and all that is known of it: what `mesh` and `sweep` share.
 
 use crate::mesh::Mesh;
-use crate::meshers::{Entry, MeshError, Mesher, Request, Trace, resident_bytes};
-use crate::quality;
+use crate::meshers::{MeshError, Mesher, Request, Trace, resident_bytes};
 use crate::suite::fem::{self, Problem, Solution};
 use crate::suite::peers;
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{Cell, Outside, Provenance, Report, Seconds};
 use crate::suite::run::prepare::{Prepared, Site};
+use crate::theory::Promises;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -38,9 +38,10 @@ pub fn run(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Resul
         background: prepared.background.get().cloned(),
         ..Trace::default()
     };
+    let case = prepared.case(request.c_b);
     let rss_before_bytes = resident_bytes().unwrap_or(0);
     let start = Instant::now();
-    let mesh = mesher.mesh(&prepared.site.domain, &*prepared.spacing, request, &mut trace)?;
+    let mesh = case.mesh_as(mesher, request, &mut trace)?;
     let total = start.elapsed().as_secs_f64();
     if let Some(background) = trace.background.take() {
         // Where another thread was first, its is the same.
@@ -77,28 +78,26 @@ pub fn run(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Resul
 }
 
 /// Everything about a mesh: statistics, certificate, and what made it.
-pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provenance: &Provenance) -> Report {
+pub fn judge(prepared: &Prepared, cell: &Cell, mesher: &dyn Mesher, run: &Run, provenance: &Provenance) -> Report {
     let (site, c_b) = (&*prepared.site, cell.c_b);
-    let t_effective = c_b * prepared.spacing.lipschitz();
+    let case = prepared.case(c_b);
+    let t_effective = case.t();
     let triangles = run.mesh.triangles.len() as f64;
     let integral = prepared.integral.value;
     let size_ratio = triangles / integral;
-    let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*prepared.spacing, c_b);
-    let rule = entry.rule(&cell.params);
-    let bounds = prepared.bounds(c_b, rule, &guaranteed);
     let (poisson, poisson_failed) = poisson(cell, site, run);
-    let (statistics, certificate) = quality::judge(&site.domain, &run.mesh, Some(&bounds));
+    let (statistics, certificate) = case.judge_of(&run.mesh, mesher);
     Report {
         domain: site.domain.name().into(),
-        mesher: entry.name.into(),
+        mesher: cell.mesher.clone(),
         params: complete(cell),
-        spacing: prepared.spec.clone(),
+        spacing: prepared.spacing.spec.clone(),
         t: cell.t,
         t_effective,
         c_b,
         alpha: cell.t / c_b,
         seed: cell.seed,
-        lfs_cap: prepared.lfs_cap,
+        lfs_cap: prepared.spacing.lfs_cap,
         smallest_input_angle_deg: site.domain.smallest_input_angle_deg(),
         smallest_segment_angle_deg: site.domain.smallest_segment_angle_deg(),
         forced_pieces: run.mesh.forced_pieces,
@@ -108,7 +107,11 @@ pub fn judge(prepared: &Prepared, cell: &Cell, entry: &Entry, run: &Run, provena
         size_ratio,
         size_ratio_lfs: triangles / site.integral_lfs.value,
         size_efficiency: size_ratio * 0.25 * 3.0f64.sqrt() * c_b * c_b,
-        min_angle_bound_deg: quality::min_angle_bound_deg(rule, t_effective),
+        min_angle_bound_deg: Promises {
+            rule: mesher.rule(),
+            t: t_effective,
+        }
+        .min_angle_deg(),
         fingerprint: fingerprint(&run.mesh),
         statistics,
         seconds: run.seconds.clone(),

@@ -1,8 +1,8 @@
 //! What cells share: domain, spacing, limited spacing, and their integrals, each made once.
 
+use crate::Case;
 use crate::domain::{self, Domain, DomainError, RepairReport};
-use crate::quality::Bounds;
-use crate::spacing::{self, Background, Integral, Lfs, Options, Rule, Spacing, SpacingError};
+use crate::spacing::{self, Background, ControlSpacing, Integral, Lfs, Options, SpacingError};
 use crate::suite::rows::adapted::Round;
 use crate::suite::rows::record::Cell;
 use crate::suite::run::adapt::{self, Ended};
@@ -52,9 +52,7 @@ pub struct Site {
 #[derive(Clone)]
 struct Base {
     site: Arc<Site>,
-    spec: String,
-    lfs_cap: bool,
-    spacing: Arc<dyn Spacing>,
+    spacing: ControlSpacing,
     integral: Integral,
     rounds: Arc<[Round]>,
 }
@@ -64,12 +62,8 @@ struct Base {
 pub struct Prepared {
     /// Where.
     pub site: Arc<Site>,
-    /// The spacing as asked for, with the numbers of this domain in it.
-    pub spec: String,
-    /// Whether f is nowhere above lfs.
-    pub lfs_cap: bool,
-    /// The spacing, limited.
-    pub spacing: Arc<dyn Spacing>,
+    /// The spacing, limited; its SPEC has the numbers of this domain in it.
+    pub spacing: ControlSpacing,
     /// ∫ dA / f² of that.
     pub integral: Integral,
     /// The rounds of adaptation by which the spacing came about.
@@ -79,16 +73,11 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// What a mesh is held against, if its method bites by that rule and guarantees these claims.
-    pub fn bounds<'a>(&'a self, c_b: f64, rule: Rule, guaranteed: &'a [&'a str]) -> Bounds<'a> {
-        Bounds {
-            spacing: &*self.spacing,
-            c_b,
-            rule,
-            lfs_cap: self.lfs_cap,
-            integral: Some(self.integral.value),
-            integral_error: self.integral.error,
-            guaranteed,
+    /// The case of that c_b.
+    pub fn case(&self, c_b: f64) -> Case {
+        Case {
+            integral: Some(self.integral),
+            ..Case::of(self.site.domain.clone(), self.spacing.clone(), c_b)
         }
     }
 }
@@ -213,7 +202,7 @@ impl Store {
         }
         let base = self.base(cell)?;
         Ok(Outlook {
-            lipschitz: base.spacing.lipschitz(),
+            lipschitz: base.spacing.function.lipschitz(),
             integral: base.integral.value,
         })
     }
@@ -224,38 +213,26 @@ impl Store {
     /// [`PrepareError`].
     pub fn prepare(&self, cell: &Cell, alpha: Option<f64>) -> Result<Prepared, PrepareError> {
         let base = self.base(cell)?;
-        let (site, spec, lfs_cap) = (base.site.clone(), base.spec.clone(), base.lfs_cap);
-        let rounds = base.rounds.clone();
-        let Some(alpha) = alpha else {
-            return Ok(Prepared {
-                site,
-                spec,
-                lfs_cap,
-                spacing: base.spacing.clone(),
-                integral: base.integral,
-                rounds,
-                background: OnceLock::new(),
-            });
-        };
-        let refused = told(&site.domain);
-        let spacing = match cell.background {
-            Some(error) => spacing::background(base.spacing.clone(), &site.domain, alpha, error),
-            None => {
-                let factor = self.options(cell, alpha).limit_factor;
-                spacing::limit(base.spacing.clone(), &site.domain, alpha, factor)
-            }
-        };
-        let spacing = spacing.map_err(&refused)?;
-        let integral = spacing::integrate(&*spacing, &site.domain, INTEGRAL_ERROR).map_err(&refused)?;
-        Ok(Prepared {
-            site,
-            spec,
-            lfs_cap,
-            spacing,
-            integral,
-            rounds,
+        let mut prepared = Prepared {
+            site: base.site.clone(),
+            spacing: base.spacing.clone(),
+            integral: base.integral,
+            rounds: base.rounds.clone(),
             background: OnceLock::new(),
-        })
+        };
+        let Some(alpha) = alpha else {
+            return Ok(prepared);
+        };
+        let domain = &*prepared.site.domain;
+        let (function, factor) = (base.spacing.function.clone(), self.options(cell, alpha).limit_factor);
+        let limited = match cell.background {
+            Some(error) => spacing::background(function, domain, alpha, error),
+            None => spacing::limit(function, domain, alpha, factor),
+        };
+        prepared.spacing.function = limited.map_err(told(domain))?;
+        prepared.integral =
+            spacing::integrate(&*prepared.spacing.function, domain, INTEGRAL_ERROR).map_err(told(domain))?;
+        Ok(prepared)
     }
 
     /// The cell's domain and spacing, limited as its t and c_b ask.
@@ -330,9 +307,7 @@ impl Store {
             };
             Ok(Arc::new(Base {
                 site,
-                spec: built.spec,
-                lfs_cap: built.lfs_cap,
-                spacing: built.function,
+                spacing: built,
                 integral,
                 rounds: rounds.into(),
             }))

@@ -4,7 +4,7 @@
 //! does not fall on one of them. Then cells that are only counted and measured run side by side, as far as their memory
 //! fits.
 
-use crate::meshers::{Budget, Entry, MeshError, Mesher, Request};
+use crate::meshers::{Budget, MeshError, Mesher, Request};
 use crate::spacing::estimate_triangles;
 use crate::suite::peers;
 use crate::suite::rows::journal::{Journal, JournalError, Line};
@@ -188,14 +188,14 @@ impl Sweep<'_> {
             return Ending::without_report(Outcome::Skipped, reason, estimated);
         }
         let attempt = guarded(|| {
-            let (entry, mesher) = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
+            let mesher = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
             let tuned = self.first_mesh(planned, prepared, &*mesher, limit)?;
             let (asked, run) = (planned.cell.scaled_to(tuned.c_b), tuned.value);
             let provenance = Provenance {
                 date: machine::now(),
                 ..self.provenance.clone()
             };
-            let mut report = measure::judge(prepared, &asked, entry, &run, &provenance);
+            let mut report = measure::judge(prepared, &asked, &*mesher, &run, &provenance);
             slim(&mut report);
             Ok((report, run.seconds.total, tuned.tries))
         });
@@ -255,7 +255,7 @@ impl Sweep<'_> {
         let c_b = row.report.as_ref().map_or(planned.cell.c_b, |report| report.c_b);
         let attempt = guarded(|| {
             let prepared = prepared.map_err(|reason| (Outcome::Failed, reason.clone()))?;
-            let (_, mesher) = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
+            let mesher = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
             self.mesh(planned, c_b, prepared, &*mesher, limit).map_err(ended)
         });
         let (run, mut report) = match (attempt, row.report) {
@@ -351,19 +351,18 @@ impl Sweep<'_> {
 ///
 /// # Errors
 /// What is wrong with its name or parameters.
-pub fn mesher(cell: &Cell) -> Result<(&'static Entry, Box<dyn Mesher>), String> {
+pub fn mesher(cell: &Cell) -> Result<Box<dyn Mesher>, String> {
     let entry = peers::find(&cell.mesher)
         .ok_or_else(|| format!("there is no mesher `{}`; `biting list` shows them", cell.mesher))?;
     let made = (entry.make)(&cell.params);
-    let mesher = made.map_err(|error| format!("mesher `{}`: {error}; `biting list` shows them", cell.mesher))?;
-    Ok((entry, mesher))
+    made.map_err(|error| format!("mesher `{}`: {error}; `biting list` shows them", cell.mesher))
 }
 
 /// Why the mesh of a mesher outside this crate is none of the domain; ours are held to their certificates as a whole, by
 /// what the plan expects.
 fn not_conforming(report: &Report) -> Option<String> {
     report.outside.as_ref()?;
-    let broken: Vec<&str> = report.certificate.broken().map(|check| check.claim.as_str()).collect();
+    let broken: Vec<&str> = report.certificate.broken().map(|check| check.claim.name()).collect();
     (!broken.is_empty()).then(|| format!("its mesh breaks {}", broken.join(", ")))
 }
 

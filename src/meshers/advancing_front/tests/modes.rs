@@ -1,6 +1,7 @@
 //! Elements one at a time and by rows, smoothing and swaps.
 
 use super::*;
+use crate::theory::Claim;
 
 #[test]
 fn a_uniform_square_is_mostly_equilateral() {
@@ -60,13 +61,13 @@ fn smoothing_and_swaps_improve_the_mesh() {
         let (swapped_mesh, swapped, certificate, _) = improved(0, true);
         assert_eq!(swapped_mesh.points, mesh.points, "swaps move no node");
         assert!(
-            certificate.check("constrained-delaunay").expect("a check").holds,
+            certificate.check(Claim::ConstrainedDelaunay).expect("a check").holds,
             "{name}"
         );
         assert!(swapped.min_angle_deg >= plain.min_angle_deg);
         let (_, both, certificate, _) = improved(3, true);
         assert!(
-            certificate.check("constrained-delaunay").expect("a check").holds,
+            certificate.check(Claim::ConstrainedDelaunay).expect("a check").holds,
             "{name}"
         );
         assert!(both.mean_min_angle_deg > swapped.mean_min_angle_deg);

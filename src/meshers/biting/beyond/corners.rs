@@ -24,7 +24,7 @@
 
 use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
-use crate::geometry::near::{least_meeting_height, meeting_height};
+use crate::geometry::near::meeting_height;
 use crate::geometry::segments::{Seen, SegmentIndex};
 use crate::geometry::tolerance::{COVERED, NO_ANGLE, RIGHT_ANGLE_DEG};
 use crate::meshers::biting::beyond::capped::{Cap, Capped};
@@ -33,7 +33,9 @@ use crate::meshers::biting::beyond::inside::Inside;
 use crate::meshers::biting::{Biting, Corners, HeadOn};
 use crate::meshers::sizing::Sizing;
 use crate::meshers::{MeshError, Request};
-use crate::spacing::{FLAT_T, Rule, Spacing};
+use crate::spacing::Spacing;
+use crate::theory::least_meeting_height;
+use crate::theory::{FLAT_T, Rule};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// κ: circles beside a cut have this share of the width there.

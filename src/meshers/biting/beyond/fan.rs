@@ -8,9 +8,9 @@
 
 use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
-use crate::geometry::near::least_meeting_height;
 use crate::meshers::biting::beyond::corners::SHARE;
-use crate::spacing::Rule;
+use crate::theory::Rule;
+use crate::theory::least_meeting_height;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
 /// Room for what f loses to rounding when two edges share an end.

@@ -58,7 +58,8 @@ use crate::geometry::DVec2;
 use crate::geometry::near::Disc;
 use crate::meshers::MeshError;
 use crate::meshers::biting::Biting;
-use crate::spacing::{GEODESIC_T, Rule, Spacing};
+use crate::spacing::Spacing;
+use crate::theory::{GEODESIC_T, Rule};
 
 /// What the circles bitten so far reach inside the domain.
 pub(in crate::meshers::biting) struct Inside {

@@ -70,7 +70,7 @@ use crate::geometry::{DVec2, tolerance};
 use crate::meshers::MeshError;
 use crate::meshers::biting::beyond::crossing::Watch;
 use crate::meshers::biting::front::Front;
-use crate::spacing::Rule;
+use crate::theory::Rule;
 
 /// Radii and distances are rounded: by so much more is looked at.
 const ROOM: f64 = 1.0 + 1e-6;

@@ -1,31 +1,20 @@
 //! Biting by the rule of the later point: its bounds, the rule itself by loops, and where the two rules agree.
 
 use crate::meshers::biting::tests::*;
+use crate::theory::Claim;
 
 /// Bites by the rule of the later point, and judges by it.
 fn by_later(name: &str, spec: &str, t: f64, c_b: f64, order: Order) -> (Mesh, crate::quality::Certificate) {
-    let domain = gallery::domain(name).expect("a gallery name").expect("a valid domain");
-    let prepared = build(spec, &domain, &Options::new(t, c_b)).expect("a spacing");
-    let spacing = &*prepared.function;
+    let case = case(name, spec, t, c_b);
     let mesher = Biting {
         rule: Rule::Later,
         order,
         ..Biting::default()
     };
-    let mesh = mesher
-        .mesh(&domain, spacing, &request(c_b), &mut Trace::default())
+    let mesh = case
+        .mesh(&mesher)
         .unwrap_or_else(|error| panic!("{name}, {spec}, t = {t}, c_b = {c_b}: {error}"));
-    let parameters = [("rule".to_owned(), "later".into())].into_iter().collect();
-    let bounds = Bounds {
-        spacing,
-        c_b,
-        rule: ENTRY.rule(&parameters),
-        lfs_cap: prepared.lfs_cap,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &ENTRY.guaranteed(&parameters, &domain, spacing, c_b),
-    };
-    let (_, certificate) = judge(&domain, &mesh, Some(&bounds));
+    let (_, certificate) = case.judge_of(&mesh, &mesher);
     (mesh, certificate)
 }
 
@@ -38,11 +27,11 @@ fn by_the_rule_of_the_later_point_the_bounds_hold() {
                 let broken: Vec<_> = certificate.broken().collect();
                 assert!(broken.is_empty(), "{name} {spec} {t} {c_b}: {broken:?}");
                 for claim in [
-                    "min-angle",
-                    "coverage",
-                    "packing-disjoint",
-                    "nn-vertex-upper",
-                    "nn-point-lower",
+                    Claim::MinAngle,
+                    Claim::Coverage,
+                    Claim::PackingDisjoint,
+                    Claim::NnVertexUpper,
+                    Claim::NnPointLower,
                 ] {
                     assert!(certificate.check(claim).expect("a check").applies, "{claim}");
                 }

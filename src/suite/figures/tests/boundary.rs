@@ -3,8 +3,8 @@
 use super::super::{figure2, figure5};
 use super::{ROUNDING, is_biting, is_inside, is_on_circle, is_on_segment, material};
 use crate::geometry::DVec2;
-use crate::geometry::near::least_meeting_height;
 use crate::suite::lemmas::statements::least_progressive_height;
+use crate::theory::least_meeting_height;
 
 #[test]
 fn figure_2_is_edge_protection() {

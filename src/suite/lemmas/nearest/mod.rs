@@ -16,10 +16,10 @@ use super::judge::optima;
 use super::measured::Meshes;
 use super::record::{Measured, Statement};
 use super::statements;
+use crate::Case;
 use crate::files::write_whole;
-use crate::meshers::{Request, Trace};
-use crate::quality::{self, Bounds};
-use crate::spacing::{self, Options, Rule};
+use crate::meshers::Trace;
+use crate::quality::{self};
 use crate::suite::report::markdown::{number, table};
 use crate::suite::rows::record::{Cell, quoted};
 use crate::suite::run::runner;
@@ -135,26 +135,14 @@ fn nearest(measured: &Measured, t: f64) -> Option<(Candidate, f64)> {
 fn worst(candidate: &Candidate, measured: &Measured, t: f64) -> Option<f64> {
     let domain = candidate.domain("candidate")?;
     let cell = candidate.cell("candidate", t);
-    let prepared = spacing::build(&cell.spacing, &domain, &Options::new(t, cell.c_b)).ok()?;
-    let (entry, mesher) = runner::mesher(&cell).ok()?;
-    let mut request = Request::new(cell.c_b);
+    let case = Case::new(domain, &cell.spacing, t, cell.c_b).ok()?;
+    let mesher = runner::mesher(&cell).ok()?;
+    let mut request = case.request();
     request.seed = cell.seed;
     request.budget.max_vertices = Some(MOST_VERTICES);
-    let mesh = mesher
-        .mesh(&domain, &*prepared.function, &request, &mut Trace::default())
-        .ok()?;
-    let guaranteed = entry.guaranteed(&cell.params, &domain, &*prepared.function, cell.c_b);
-    let bounds = Bounds {
-        spacing: &*prepared.function,
-        c_b: cell.c_b,
-        rule: Rule::Earlier,
-        lfs_cap: prepared.lfs_cap,
-        integral: None,
-        integral_error: 0.0,
-        guaranteed: &guaranteed,
-    };
-    let (_, certificate) = quality::judge(&domain, &mesh, Some(&bounds));
-    quantity(&certificate, measured, cell.c_b, prepared.t_effective(cell.c_b))
+    let mesh = case.mesh_as(&*mesher, &request, &mut Trace::default()).ok()?;
+    let (_, certificate) = case.judge_of(&mesh, &*mesher);
+    quantity(&certificate, measured, cell.c_b, case.t())
 }
 
 fn quantity(certificate: &quality::Certificate, measured: &Measured, c_b: f64, t: f64) -> Option<f64> {

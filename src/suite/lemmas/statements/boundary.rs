@@ -1,8 +1,10 @@
 //! §6.2: how high above a segment the circles of neighbouring boundary vertices meet (Lemmas 6.3 and 6.4).
 
 use super::*;
-use crate::geometry::near::{self, least_meeting_height};
+use crate::geometry::near;
 use crate::suite::lemmas::record::{Corrected, Measured};
+use crate::theory::Claim;
+use crate::theory::least_meeting_height;
 
 pub(super) const STATEMENTS: &[Statement] = &[LEMMA_6_3, LEMMA_6_3_STEP, LEMMA_6_4, LEMMA_6_4_STEP, EQUATION_10];
 
@@ -133,7 +135,7 @@ const LEMMA_6_4: Statement = Statement {
         },
     },
     measured: Some(Measured {
-        claim: "boundary-height",
+        claim: Claim::BoundaryHeight,
         sense: Sense::AtLeast,
         quantity: Some(|worst, _, _| worst),
     }),

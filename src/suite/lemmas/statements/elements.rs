@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::suite::lemmas::record::Measured;
+use crate::theory::Claim;
 
 pub(super) const STATEMENTS: &[Statement] = &[LEMMA_6_1, LEMMA_6_2];
 
@@ -67,7 +68,7 @@ const LEMMA_6_2: Statement = Statement {
         ..LEMMA_6_1.problem
     },
     measured: Some(Measured {
-        claim: "min-angle",
+        claim: Claim::MinAngle,
         sense: Sense::AtLeast,
         quantity: Some(|degrees, _, _| degrees.to_radians().sin()),
     }),

@@ -4,6 +4,7 @@ use super::packing::{meeting_distance, two_circles};
 use super::*;
 use crate::geometry::interval::Interval;
 use crate::suite::lemmas::record::{Corrected, Measured};
+use crate::theory::Claim;
 use std::f64::consts::PI;
 
 pub(super) const STATEMENTS: &[Statement] = &[
@@ -54,7 +55,7 @@ const LEMMA_5_7_LOWER: Statement = Statement {
         consequence: "The lemma holds; the corrected constant is larger, and attained.",
     }),
     measured: Some(Measured {
-        claim: "nn-vertex-lower",
+        claim: Claim::NnVertexLower,
         sense: Sense::AtLeast,
         quantity: Some(|worst, c_b, _| worst / c_b),
     }),
@@ -89,7 +90,7 @@ const LEMMA_5_7_UPPER: Statement = Statement {
         quantity: meeting_distance,
     },
     measured: Some(Measured {
-        claim: "nn-vertex-upper",
+        claim: Claim::NnVertexUpper,
         sense: Sense::AtMost,
         quantity: Some(|worst, c_b, _| worst / c_b),
     }),
@@ -136,7 +137,7 @@ const LEMMA_5_8_LOWER: Statement = Statement {
               is f / (9 α) in place of f / (10 α), for t = 1/3 f / (7 α) in place of f / (8 α).",
     }),
     measured: Some(Measured {
-        claim: "nn-point-lower",
+        claim: Claim::NnPointLower,
         sense: Sense::AtLeast,
         quantity: Some(|worst, c_b, _| worst / c_b),
     }),
@@ -201,7 +202,7 @@ const LEMMA_5_8_UPPER: Statement = Statement {
               2f / (3α) in place of 11f / (9α), for t = 1/3 f / α in place of 2f / α.",
     }),
     measured: Some(Measured {
-        claim: "nn-point-upper",
+        claim: Claim::NnPointUpper,
         sense: Sense::AtMost,
         quantity: Some(|worst, c_b, _| worst / c_b),
     }),
@@ -253,7 +254,7 @@ const THEOREM_5_11_LOWER: Statement = Statement {
         most_boxes: 300,
     },
     measured: Some(Measured {
-        claim: "vertices-lower",
+        claim: Claim::VerticesLower,
         sense: Sense::AtLeast,
         quantity: None,
     }),
@@ -287,7 +288,7 @@ const THEOREM_5_11_UPPER: Statement = Statement {
         most_boxes: 300,
     },
     measured: Some(Measured {
-        claim: "vertices-upper",
+        claim: Claim::VerticesUpper,
         sense: Sense::AtMost,
         quantity: None,
     }),

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::suite::lemmas::record::Measured;
+use crate::theory::Claim;
 
 pub(super) const STATEMENTS: &[Statement] = &[LEMMA_5_2_LOWER, LEMMA_5_2_UPPER, LEMMA_5_3, LEMMA_5_4, THEOREM_5_5];
 
@@ -127,7 +128,7 @@ const LEMMA_5_4: Statement = Statement {
         quantity: |t, v| number(1.0) / (number(2.0) / v[0].max(number(1e-9)) + t * v[1]),
     },
     measured: Some(Measured {
-        claim: "packing-disjoint",
+        claim: Claim::PackingDisjoint,
         sense: Sense::AtLeast,
         quantity: Some(|worst, _, t| worst / (2.0 + t)),
     }),

@@ -26,7 +26,7 @@ fn an_adapted_mesh_is_fine_where_the_solution_is_steep() {
     let prepared = store
         .prepare_for_t(&cell("unit-square", "boundary-layer", adapt(2e-2)))
         .unwrap();
-    let at = |x: f64| prepared.spacing.at(DVec2::new(x, 0.5));
+    let at = |x: f64| prepared.spacing.function.at(DVec2::new(x, 0.5));
     assert!(at(0.01) < 0.2 * at(0.8), "{} {}", at(0.01), at(0.8));
     let (first, last) = (&prepared.rounds[0], prepared.rounds.last().unwrap());
     assert!(

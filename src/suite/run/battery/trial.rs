@@ -1,10 +1,9 @@
 //! One case run and judged.
 
-use crate::domain::{self, Domain, gallery};
-use crate::mesh::Mesh;
+use crate::domain::{self, gallery};
 use crate::meshers::{Budget, MeshError, Request, Trace};
-use crate::quality::{self, Bounds, Check};
-use crate::spacing::{self, Integral, Options, Rule, SpacingError, estimate_triangles};
+use crate::quality::{Certificate, Check};
+use crate::spacing::{SpacingError, estimate_triangles};
 use crate::suite::run::battery::family::Case;
 use crate::suite::run::ending::guarded;
 use crate::suite::run::measure;
@@ -89,11 +88,11 @@ pub fn run(case: &Case) -> Trial {
 /// Why there is no mesh.
 type NoMesh = (Verdict, String);
 
-fn attempt(case: &Case) -> Result<Trial, NoMesh> {
-    let cell = &case.cell;
-    let site = Site::new(case)?;
-    let most = case.budget.triangles;
-    let expected = site
+fn attempt(trial: &Case) -> Result<Trial, NoMesh> {
+    let cell = &trial.cell;
+    let case = prepared(trial)?;
+    let most = trial.budget.triangles;
+    let expected = case
         .integral
         .map_or(0.0, |integral| estimate_triangles(integral.value, cell.c_b));
     if expected > most {
@@ -101,24 +100,22 @@ fn attempt(case: &Case) -> Result<Trial, NoMesh> {
         return Err((Verdict::Stopped, reason));
     }
     let declined = |reason| (Verdict::Declined, reason);
-    let (entry, mesher) = runner::mesher(cell).map_err(declined)?;
+    let mesher = runner::mesher(cell).map_err(declined)?;
     let request = Request {
-        c_b: cell.c_b,
         seed: cell.seed,
-        threads: 1,
         budget: Budget {
             max_vertices: Some((VERTICES_PER_BUDGET_TRIANGLE * most) as usize),
-            max_seconds: Some(case.budget.seconds),
+            max_seconds: Some(trial.budget.seconds),
             max_memory: Some(MOST_MEMORY),
         },
+        ..case.request()
     };
-    let made = mesher.mesh(&site.domain, &*site.spacing.function, &request, &mut Trace::default());
+    let made = case.mesh_as(&*mesher, &request, &mut Trace::default());
     let mesh = made.map_err(|error| match error {
         MeshError::Budget { .. } => (Verdict::Stopped, error.to_string()),
         _ => declined(error.to_string()),
     })?;
-    let guaranteed = entry.guaranteed(&cell.params, &site.domain, &*site.spacing.function, cell.c_b);
-    let broken = site.broken((cell.c_b, entry.rule(&cell.params)), &guaranteed, &mesh);
+    let broken = broken(&case.judge_of(&mesh, &*mesher).1);
     Ok(Trial {
         verdict: if broken.is_none() {
             Verdict::Certified
@@ -134,47 +131,26 @@ fn attempt(case: &Case) -> Result<Trial, NoMesh> {
 }
 
 /// Domain and spacing, as for the cells of a sweep; its integral where asked for, to fewer digits.
-struct Site {
-    domain: Domain,
-    spacing: spacing::Prepared,
-    integral: Option<Integral>,
+fn prepared(trial: &Case) -> Result<crate::Case, NoMesh> {
+    let cell = &trial.cell;
+    let domain = domain::load(&cell.domain).map_err(|error| (Verdict::Refused, error.to_string()))?;
+    let declined = |error: SpacingError| (Verdict::Declined, error.to_string());
+    let spec = fill_in(&cell.spacing, &domain);
+    let case = crate::Case::new(domain, &spec, cell.t, cell.c_b).map_err(declined)?;
+    match trial.integral {
+        true => case.integrated(INTEGRAL_ERROR).map_err(declined),
+        false => Ok(case),
+    }
 }
 
-impl Site {
-    fn new(case: &Case) -> Result<Self, NoMesh> {
-        let cell = &case.cell;
-        let domain = domain::load(&cell.domain).map_err(|error| (Verdict::Refused, error.to_string()))?;
-        let declined = |error: SpacingError| (Verdict::Declined, error.to_string());
-        let spec = fill_in(&cell.spacing, &domain);
-        let spacing = spacing::build(&spec, &domain, &Options::new(cell.t, cell.c_b)).map_err(declined)?;
-        let integrate = || spacing::integrate(&*spacing.function, &domain, INTEGRAL_ERROR);
-        let integral = case.integral.then(integrate).transpose().map_err(declined)?;
-        Ok(Self {
-            domain,
-            spacing,
-            integral,
-        })
-    }
-
-    /// The guaranteed checks that a mesh breaks, in words.
-    fn broken(&self, (c_b, rule): (f64, Rule), guaranteed: &[&str], mesh: &Mesh) -> Option<String> {
-        let bounds = Bounds {
-            spacing: &*self.spacing.function,
-            c_b,
-            rule,
-            lfs_cap: self.spacing.lfs_cap,
-            integral: self.integral.map(|integral| integral.value),
-            integral_error: self.integral.map_or(0.0, |integral| integral.error),
-            guaranteed,
-        };
-        let (_, certificate) = quality::judge(&self.domain, mesh, Some(&bounds));
-        let told = |check: &Check| {
-            let number = |value: Option<f64>| value.map_or_else(|| "nothing".into(), |value| value.to_string());
-            let place = check.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
-            let (worst, bound) = (number(check.worst), number(check.bound));
-            format!("{}: {worst} where {bound} is the bound{place}", check.claim)
-        };
-        let broken: Vec<String> = certificate.broken().map(told).collect();
-        (!broken.is_empty()).then(|| broken.join("; "))
-    }
+/// The guaranteed checks that a mesh breaks, in words.
+fn broken(certificate: &Certificate) -> Option<String> {
+    let told = |check: &Check| {
+        let number = |value: Option<f64>| value.map_or_else(|| "nothing".into(), |value| value.to_string());
+        let place = check.at.map_or_else(String::new, |[x, y]| format!(" at ({x}, {y})"));
+        let (worst, bound) = (number(check.worst), number(check.bound));
+        format!("{}: {worst} where {bound} is the bound{place}", check.claim)
+    };
+    let broken: Vec<String> = certificate.broken().map(told).collect();
+    (!broken.is_empty()).then(|| broken.join("; "))
 }

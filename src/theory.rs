@@ -1,0 +1,327 @@
+//! The paper's formulas, hypotheses and claims, each once: meshers and quality both read them here, and neither the other.
+//!
+//! [`Rule`] says who bites whom, [`Promises`] has every bound for a rule and t, [`Hypotheses`] what the bounds need, and
+//! [`Claim`] the checks of the certificate by name. For [`Rule::Earlier`] the numbers are the paper's; for [`Rule::Later`] the
+//! docs of [`crate::meshers::biting`] derive them.
+
+use crate::geometry::tolerance::RIGHT_ANGLE_DEG;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, SQRT_2};
+use std::fmt;
+
+#[cfg(test)]
+mod tests;
+
+/// The t = α c_b below which a spacing counts as flat: where biting must come down to a smaller size beside a corner, it
+/// then grows away from there faster than the spacing would.
+pub const FLAT_T: f64 = 0.05;
+
+/// √2 − 1, the largest t = α c_b for which biting is proved to work with distances inside the domain.
+pub const GEODESIC_T: f64 = SQRT_2 - 1.0;
+
+/// 1/3, the largest t for which §6 bounds what happens at the boundary.
+pub const BOUNDARY_T: f64 = 1.0 / 3.0;
+
+/// Whose spacing sets the distance of two points x and y, x bitten before y. With g = c_b f and t its Lipschitz constant:
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rule {
+    /// That of the earlier point, ‖x − y‖ ≥ g(x), as in the paper: y lies in no circle of those before it. Biting ends when
+    /// every point z of the domain has ‖x − z‖ ≤ g(x) for some x.
+    #[default]
+    Earlier,
+    /// That of the later point, ‖x − y‖ ≥ g(y): no point before lies in the circle of y. Biting ends when every point z of
+    /// the domain has ‖x − z‖ ≤ g(z) for some x.
+    Later,
+}
+
+impl Rule {
+    /// What of two things, that of the point bitten first and that of the other, the distance of the two is held against.
+    pub fn of<T>(self, earlier: T, later: T) -> T {
+        match self {
+            Self::Earlier => earlier,
+            Self::Later => later,
+        }
+    }
+}
+
+/// The packing constant c_p = c_b / (2 + t): by Lemma 5.4 the circles B(x, c_p f(x)) are disjoint.
+pub fn packing_constant(c_b: f64, t: f64) -> f64 {
+    c_b / (2.0 + t)
+}
+
+/// β = (1 + t) / (1 − t) of Theorem 5.5: no point y of the domain is farther than β c_p f(y) from all packing circles.
+/// Infinite from t = 1 on.
+pub fn beta(t: f64) -> f64 {
+    if t < 1.0 { (1.0 + t) / (1.0 - t) } else { f64::INFINITY }
+}
+
+/// Equation (9), the smaller of the bounds of Lemmas 6.3 and 6.4: the circles of neighbouring boundary vertices meet at
+/// least (1 − t) √((t² − 4t + 7)(1 − t²)) / 4 times the smaller radius above the boundary.
+pub fn least_meeting_height(t: f64) -> f64 {
+    (1.0 - t) * ((t * t - 4.0 * t + 7.0) * (1.0 - t * t)).max(0.0).sqrt() / 4.0
+}
+
+/// The bounds of biting for a rule and t = c_b · lipschitz(). Distances are over c_b f.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Promises {
+    /// Who bites whom.
+    pub rule: Rule,
+    /// α c_b.
+    pub t: f64,
+}
+
+impl Promises {
+    /// sin θ ≥ 1/2 − t by Theorem 6.8; (1 − t) / 2 by the rule of the later point. 0 where that is negative.
+    pub fn least_sine(self) -> f64 {
+        self.rule.of(0.5 - self.t, 0.5 - 0.5 * self.t).max(0.0)
+    }
+
+    /// The angle of [`Promises::least_sine`], degrees.
+    pub fn min_angle_deg(self) -> f64 {
+        self.least_sine().asin().to_degrees()
+    }
+
+    /// nn at vertices: from 1 − t to 2 / (1 − t) by Lemma 5.7; from 1 / (1 + t) by the rule of the later point.
+    pub fn nn_at_vertices(self) -> [f64; 2] {
+        let t = self.t;
+        let least = self.rule.of((1.0 - t).max(0.0), 1.0 / (1.0 + t));
+        [least, self.upper(2.0 / (1.0 - t))]
+    }
+
+    /// nn elsewhere: from 1 / (2 + 2t) to (3 − t) / (1 − t)² by Lemma 5.8; from 1 / (2 + t) to (3 + t) / (1 − t) by the
+    /// rule of the later point.
+    pub fn nn_at_points(self) -> [f64; 2] {
+        let t = self.t;
+        let least = self.rule.of(1.0 / (2.0 + 2.0 * t), 1.0 / (2.0 + t));
+        let most = self.rule.of((3.0 - t) / ((1.0 - t) * (1.0 - t)), (3.0 + t) / (1.0 - t));
+        [least, self.upper(most)]
+    }
+
+    /// The most that what one point eats can hold of ∫ dA / (c_b f)²: π / (1 − t)², since f ≥ (1 − t) f(x) in its circle;
+    /// −2π (ln(1 − t) + t) / t² by the rule of the later point, where g grows with t away from it.
+    pub fn most_eaten(self) -> f64 {
+        let t = self.t;
+        let by_later = if t < 1e-4 {
+            // The first terms of the series: the formula cancels.
+            PI * (1.0 + 2.0 * t / 3.0 + 0.5 * t * t)
+        } else {
+            -2.0 * PI * ((-t).ln_1p() + t) / (t * t)
+        };
+        self.upper(self.rule.of(PI / ((1.0 - t) * (1.0 - t)), by_later))
+    }
+
+    /// How many vertices a mesh has, by share of their packing circles in the domain: at least what covers ∫ dA / f², at
+    /// most as many packing circles as it has room for. `integral` is from its least to its largest value.
+    pub fn vertices(self, c_b: f64, integral: [f64; 2]) -> [f64; 2] {
+        let fewest = integral[0] / (self.most_eaten() * c_b * c_b);
+        let most = 4.0 * (1.0 + self.t).powi(2) * integral[1] / (PI * c_b * c_b);
+        [fewest, most]
+    }
+
+    /// Without t < 1 there is nothing above.
+    fn upper(self, bound: f64) -> f64 {
+        if self.t < 1.0 { bound } else { f64::INFINITY }
+    }
+}
+
+/// A claim of the certificate, the structural ones first; [`crate::quality`] has the table of what each says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)]
+pub enum Claim {
+    PositiveOrientation,
+    Area,
+    VerticesUsed,
+    InputVertices,
+    InputSegments,
+    ManifoldEdges,
+    BoundaryOnSegments,
+    ConstrainedDelaunay,
+    PackingDisjoint,
+    Coverage,
+    BoundaryHeight,
+    MinAngle,
+    MinAngleBeyondCorners,
+    CornerAngles,
+    NnVertexLower,
+    NnVertexUpper,
+    NnPointLower,
+    NnPointUpper,
+    VerticesLower,
+    VerticesUpper,
+}
+
+impl Claim {
+    /// All, in the order of a certificate.
+    pub const ALL: [Self; 20] = [
+        Self::PositiveOrientation,
+        Self::Area,
+        Self::VerticesUsed,
+        Self::InputVertices,
+        Self::InputSegments,
+        Self::ManifoldEdges,
+        Self::BoundaryOnSegments,
+        Self::ConstrainedDelaunay,
+        Self::PackingDisjoint,
+        Self::Coverage,
+        Self::BoundaryHeight,
+        Self::MinAngle,
+        Self::MinAngleBeyondCorners,
+        Self::CornerAngles,
+        Self::NnVertexLower,
+        Self::NnVertexUpper,
+        Self::NnPointLower,
+        Self::NnPointUpper,
+        Self::VerticesLower,
+        Self::VerticesUpper,
+    ];
+
+    /// Its name in reports, tables and messages: kebab case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PositiveOrientation => "positive-orientation",
+            Self::Area => "area",
+            Self::VerticesUsed => "vertices-used",
+            Self::InputVertices => "input-vertices",
+            Self::InputSegments => "input-segments",
+            Self::ManifoldEdges => "manifold-edges",
+            Self::BoundaryOnSegments => "boundary-on-segments",
+            Self::ConstrainedDelaunay => "constrained-delaunay",
+            Self::PackingDisjoint => "packing-disjoint",
+            Self::Coverage => "coverage",
+            Self::BoundaryHeight => "boundary-height",
+            Self::MinAngle => "min-angle",
+            Self::MinAngleBeyondCorners => "min-angle-beyond-corners",
+            Self::CornerAngles => "corner-angles",
+            Self::NnVertexLower => "nn-vertex-lower",
+            Self::NnVertexUpper => "nn-vertex-upper",
+            Self::NnPointLower => "nn-point-lower",
+            Self::NnPointUpper => "nn-point-upper",
+            Self::VerticesLower => "vertices-lower",
+            Self::VerticesUpper => "vertices-upper",
+        }
+    }
+
+    /// Where the paper says so; empty for the structural claims.
+    pub fn lemma(self) -> &'static str {
+        match self {
+            Self::PackingDisjoint => "Lemma 5.4",
+            Self::Coverage => "Theorem 5.5",
+            Self::BoundaryHeight => "Lemmas 6.3 and 6.4",
+            Self::MinAngle => "Theorem 6.8",
+            Self::MinAngleBeyondCorners => "Theorem 6.8, §5.1",
+            Self::CornerAngles => "§5.1",
+            Self::NnVertexLower | Self::NnVertexUpper => "Lemma 5.7",
+            Self::NnPointLower | Self::NnPointUpper => "Lemma 5.8",
+            Self::VerticesLower => "from Theorem 5.5",
+            Self::VerticesUpper => "from Lemma 5.4",
+            _ => "",
+        }
+    }
+}
+
+impl fmt::Display for Claim {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.pad(self.name())
+    }
+}
+
+/// A claim that a method guarantees, where the claim's hypotheses hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Guarantee {
+    /// Which.
+    pub claim: Claim,
+    /// Whether only in plain cases: no angle under 90° between neighbouring segments, inside or outside, and, by the paper's
+    /// rule, c_b + t ≤ 1. Elsewhere the method meshes with a smaller spacing than it was given, or without some circles.
+    pub plain: bool,
+}
+
+impl Guarantee {
+    /// On every domain, for every spacing.
+    pub const fn always(claim: Claim) -> Self {
+        Self { claim, plain: false }
+    }
+
+    /// Only in plain cases.
+    pub const fn plain(claim: Claim) -> Self {
+        Self { claim, plain: true }
+    }
+}
+
+/// What the paper's theorems assume, stated or not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hypotheses {
+    /// c_b times the Lipschitz constant of the spacing as evaluated.
+    pub t: f64,
+    /// Biting constant.
+    pub c_b: f64,
+    /// Whose spacing sets the distance of two points.
+    pub rule: Rule,
+    /// Whether f ≤ lfs.
+    pub lfs_cap: bool,
+    /// Smallest angle between neighbouring segments on any side, inside or out, degrees; 360 if none.
+    pub smallest_segment_angle_deg: f64,
+    /// Input segments bitten at their two vertices only, whose circles meet lower than (9).
+    pub low_head_on: usize,
+    /// Whether every vertex with an angle under 90° inside has no other angle inside.
+    pub single_corners: bool,
+    /// Whether f is Lipschitz in distances inside the domain, and lfs is meant so.
+    pub is_geodesic: bool,
+    /// Whether a vertex with an angle under 90° inside, which has no circle where corners are cut off, may hide points: whether it
+    /// has an angle under 180° outside.
+    pub corners_hide: bool,
+}
+
+impl Hypotheses {
+    /// Whether neither the domain nor the request needs anything that the paper does not have: no angle under 90° between
+    /// neighbouring segments, inside or outside, and c_b + t ≤ 1, which the rule of the later point does not need.
+    pub fn is_plain(&self) -> bool {
+        (self.rule == Rule::Later || self.c_b + self.t <= 1.0) && self.has_no_small_angle()
+    }
+
+    /// Whether a claim follows from them for a mesh made by biting.
+    pub fn imply(&self, claim: Claim) -> bool {
+        if self.is_geodesic && (self.rule == Rule::Later || self.t > GEODESIC_T || self.corners_hide) {
+            return false;
+        }
+        match claim {
+            Claim::PackingDisjoint | Claim::VerticesUpper => self.vertices_apart(),
+            Claim::Coverage | Claim::VerticesLower => self.t < 1.0,
+            Claim::BoundaryHeight => self.rule == Rule::Earlier && self.of_section_6(),
+            Claim::MinAngle => self.of_theorem_6_8(),
+            Claim::MinAngleBeyondCorners => self.corners_can_be_cut(),
+            Claim::CornerAngles => self.single_corners,
+            _ => self.vertices_apart() && self.t < 1.0,
+        }
+    }
+
+    /// What §6 assumes of domain and t.
+    fn of_section_6(&self) -> bool {
+        self.vertices_apart() && self.t <= BOUNDARY_T && self.has_no_small_angle()
+    }
+
+    /// What Theorem 6.8 needs, stated or not; by the rule of the later point, any t < 1 will do.
+    fn of_theorem_6_8(&self) -> bool {
+        match self.rule {
+            Rule::Earlier => self.of_section_6() && self.low_head_on == 0,
+            Rule::Later => self.vertices_apart() && self.t < 1.0 && self.has_no_small_angle(),
+        }
+    }
+
+    /// Circles around input vertices hold no other input vertex (Lemma 5.1).
+    fn vertices_apart(&self) -> bool {
+        self.lfs_cap && self.c_b <= 1.0
+    }
+
+    /// Whether corners can be cut off so that the angle bound holds beyond them: to the sizes cut off there, the spacing
+    /// must come down with t.
+    fn corners_can_be_cut(&self) -> bool {
+        let steepest = self.rule.of(BOUNDARY_T, 1.0 / 2.0);
+        self.vertices_apart() && self.t <= steepest && (self.t >= FLAT_T || self.is_plain())
+    }
+
+    fn has_no_small_angle(&self) -> bool {
+        self.smallest_segment_angle_deg >= 90.0 - RIGHT_ANGLE_DEG
+    }
+}
