@@ -8,8 +8,8 @@ use biting::geometry::{DVec2, Rect};
 use biting::meshers::biting::Biting;
 use biting::meshers::{Mesher, Request, Trace};
 use biting::spacing::{
-    Expression, Hessian, Lfs, Limited, Options, Spacing, Tolerance, Uniform, background, build, integrate, lfs_of,
-    limit, of_samples,
+    Expression, Hessian, Lfs, Limited, Options, Spacing, Tolerance, Uniform, build, integrate, lfs_of, limit,
+    of_samples,
 };
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -80,10 +80,6 @@ fn evaluations(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("limited-lfs", alpha), |b| {
             b.iter(|| evaluate(&points, |x| limited.at(x)));
         });
-        let background = background(lfs.clone(), &domain, alpha, 0.1).expect("lfs is positive");
-        group.bench_function(BenchmarkId::new("background", alpha), |b| {
-            b.iter(|| evaluate(&points, |x| background.at(x)));
-        });
     }
     group.finish();
 }
@@ -99,9 +95,6 @@ fn builds(criterion: &mut Criterion) {
     for alpha in [0.1, ALPHA, 0.5] {
         group.bench_function(BenchmarkId::new("limited-lfs", alpha), |b| {
             b.iter(|| limit(lfs.clone(), &domain, alpha, 0.9).map(|f| f.lipschitz()));
-        });
-        group.bench_function(BenchmarkId::new("background", alpha), |b| {
-            b.iter(|| background(lfs.clone(), &domain, alpha, 0.1).map(|f| f.lipschitz()));
         });
     }
     group.finish();

@@ -1,7 +1,7 @@
 //! What is asked of a mesher on one domain, as `mesh` and `figures --replay` take it.
 
 use super::exit::Failure;
-use super::values::{parameter, positive, share};
+use super::values::{parameter, positive};
 use crate::spacing;
 use crate::suite::rows::record::Cell;
 use serde_json::Value;
@@ -32,10 +32,6 @@ pub struct Asked {
     /// A parameter of the mesher, name=value; may be repeated
     #[arg(long, value_name = "NAME=VALUE", value_parser = parameter)]
     param: Vec<(String, Value)>,
-    /// Evaluate the limited spacing on a background quadtree (§2.3), within a share EPS of the largest: evaluations take a
-    /// fifth of the time, once it is made, which takes as long as 10⁵ to 2·10⁶ of them; in place of --limit-factor
-    #[arg(long, value_name = "EPS", value_parser = share)]
-    background: Option<f64>,
     /// Do not cap the spacing by local feature size; the bounds of the paper no longer apply
     #[arg(long)]
     no_lfs_cap: bool,
@@ -52,7 +48,6 @@ impl Asked {
             params: self.param.iter().cloned().collect(),
             seed: self.seed,
             lfs_cap: !self.no_lfs_cap,
-            background: self.background,
             ..Cell::new(domain, mesher, &spacing, self.t, self.c_b)
         })
     }

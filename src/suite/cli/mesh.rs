@@ -4,7 +4,7 @@ use super::asked::Asked;
 use super::exit::{Failure, Outcome};
 use super::output::{self, STDOUT, Target, say, say_aside};
 use super::stages;
-use super::values::{Limits, positive};
+use super::values::{Limits, share};
 use crate::meshers::Request;
 use crate::spacing::{Ingredients, Spec};
 use crate::suite::charts;
@@ -41,7 +41,7 @@ pub struct Arguments {
     #[command(flatten)]
     limits: Limits,
     /// How close limiting comes to the largest spacing it could keep, below 1 [default: 0.9]
-    #[arg(long, value_name = "SHARE", value_parser = positive)]
+    #[arg(long, value_name = "SHARE", value_parser = share)]
     limit_factor: Option<f64>,
 }
 

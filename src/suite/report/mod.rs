@@ -5,7 +5,6 @@
 
 mod adapt;
 mod angles;
-mod background;
 mod battery;
 mod claims;
 mod corners;

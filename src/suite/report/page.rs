@@ -2,7 +2,6 @@
 
 use super::adapt;
 use super::angles;
-use super::background::background_findings;
 use super::claims;
 use super::corners;
 use super::duels;
@@ -145,8 +144,7 @@ fn headlines(rows: &[Row]) -> Vec<String> {
         sections::certificate_finding(rows),
         sections::time_finding(rows),
     ];
-    let several = rules::rule_findings(rows).into_iter().chain(background_findings(rows));
-    lines.into_iter().flatten().chain(several).collect()
+    lines.into_iter().flatten().chain(rules::rule_findings(rows)).collect()
 }
 
 fn what_was_run(rows: &[Row], name: &str) -> String {

@@ -1,7 +1,6 @@
 //! Findings against numbers worked out by hand, and the page as files.
 
 mod adapt;
-mod background;
 mod outside;
 mod rivals;
 mod rules;

@@ -196,9 +196,6 @@ pub struct Cell {
     pub seed: u64,
     /// Whether the spacing is capped by lfs.
     pub lfs_cap: bool,
-    /// The error of the background that the limited spacing is evaluated on; without it, the spacing itself is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub background: Option<f64>,
     /// Triangles the mesh shall have: c_b is scaled until it has, the spacing staying as it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub triangles: Option<u64>,
@@ -252,7 +249,6 @@ impl Cell {
             c_b,
             seed: 0,
             lfs_cap: true,
-            background: None,
             triangles: None,
             threads: 1,
             poisson: None,
@@ -269,21 +265,19 @@ impl Cell {
         self
     }
 
-    /// Spacing, t, c_b, seed, parameters, cap and background as the command line takes them, each with a blank before it.
+    /// Spacing, t, c_b, seed, parameters and cap as the command line takes them, each with a blank before it.
     pub fn options(&self) -> String {
         let params = self.params.iter();
         let params =
             params.map(|(name, value)| format!(" --param {}", quoted(&format!("{name}={}", parameter_text(value)))));
-        let background = self.background.map(|error| format!(" --background {error}"));
         format!(
-            " --spacing {} --t {} --c-b {} --seed {}{}{}{}",
+            " --spacing {} --t {} --c-b {} --seed {}{}{}",
             quoted(&self.spacing),
             self.t,
             self.c_b,
             self.seed,
             params.collect::<String>(),
-            if self.lfs_cap { "" } else { " --no-lfs-cap" },
-            background.unwrap_or_default()
+            if self.lfs_cap { "" } else { " --no-lfs-cap" }
         )
     }
 

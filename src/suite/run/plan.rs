@@ -25,7 +25,6 @@
 //! c_b = [0.25, 1.0]
 //! seeds = [0]                    # default
 //! lfs_cap = true                 # default
-//! background = 0.05              # without it a limited spacing is evaluated itself, with it on a background of that error
 //! equal_triangles = 20_000       # or a list; without it c_b stays as asked, with it c_b is scaled until a mesh has so many
 //! threads = [1]                  # default
 //! poisson = "smooth"             # without it nothing is solved

@@ -225,11 +225,7 @@ impl Store {
         };
         let domain = &*prepared.site.domain;
         let (function, factor) = (base.spacing.function.clone(), self.options(cell, alpha).limit_factor);
-        let limited = match cell.background {
-            Some(error) => spacing::background(function, domain, alpha, error),
-            None => spacing::limit(function, domain, alpha, factor),
-        };
-        prepared.spacing.function = limited.map_err(told(domain))?;
+        prepared.spacing.function = spacing::limit(function, domain, alpha, factor).map_err(told(domain))?;
         prepared.integral =
             spacing::integrate(&*prepared.spacing.function, domain, INTEGRAL_ERROR).map_err(told(domain))?;
         Ok(prepared)

@@ -79,7 +79,6 @@ pub fn tasks<E>(
             cell.spacing.as_str(),
             cell.lfs_cap,
             cell.adapted_by(),
-            cell.background.map(f64::to_bits),
             alpha.map(f64::to_bits),
             cell.timed,
         );
@@ -235,16 +234,6 @@ mod tests {
         assert_eq!(
             gathered(&cells, 1.0),
             [(Some(0.25), vec![vec![0, 3], vec![1], vec![2]])]
-        );
-    }
-
-    #[test]
-    fn a_background_is_another_spacing() {
-        let mut cells = vec![planned("background", 0.25, 1.0, fifo()); 2];
-        cells[1].cell.background = Some(0.05);
-        assert_eq!(
-            gathered(&cells, 1.0),
-            [(Some(0.25), vec![vec![0]]), (Some(0.25), vec![vec![1]])]
         );
     }
 

@@ -1,4 +1,4 @@
-//! Lists of the terms of F that matter in each part of a domain: the leaves of the background quadtree (§2.3).
+//! Lists of the terms of F that matter in each part of a domain: the leaves of a quadtree (§2.3, end).
 //!
 //! Nothing is interpolated from the corners of a leaf, as the paper's remark suggests: F is evaluated, and so stays α-Lipschitz across
 //! leaves of any sizes. The quadtree need not be balanced, and is not.

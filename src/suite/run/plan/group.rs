@@ -35,9 +35,6 @@ pub struct Group {
     seeds: Vec<u64>,
     #[serde(default = "yes")]
     lfs_cap: bool,
-    /// The error of the background that limited spacings are evaluated on, if they are.
-    #[serde(default)]
-    background: Option<f64>,
     /// Triangles every mesh shall have: c_b is scaled until it has, each c_b of the list being where that starts.
     #[serde(default)]
     equal_triangles: Option<Counts>,
@@ -205,9 +202,6 @@ impl Group {
         for adapt in self.adapt.iter().flatten() {
             adapt.check()?;
         }
-        if let Some(error) = self.background.filter(|error| !(0.0 < *error && *error < 1.0)) {
-            return Err(format!("`background` is {error}: it must be between 0 and 1"));
-        }
         if self.timed && self.repeats == 0 {
             return Err("`repeats` must be at least 1".into());
         }
@@ -237,7 +231,6 @@ impl Group {
                         c_b: c_b.get(),
                         seed,
                         lfs_cap: self.lfs_cap,
-                        background: self.background,
                         triangles,
                         threads,
                         poisson: self.poisson.clone(),
@@ -308,10 +301,6 @@ fn key(group: &str, cell: &Cell) -> String {
     for (text, differs) in [
         (format!("/seed={}", cell.seed), cell.seed != 0),
         ("/no-lfs-cap".into(), !cell.lfs_cap),
-        (
-            format!("/background={}", cell.background.unwrap_or_default()),
-            cell.background.is_some(),
-        ),
         (
             format!("/triangles={}", cell.triangles.unwrap_or_default()),
             cell.triangles.is_some(),
