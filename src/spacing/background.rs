@@ -2,7 +2,7 @@
 //!
 //! Inside a leaf the value is bilinear; a corner that hangs on the side of a larger leaf has the mean of that side's ends,
 //! so that the whole is continuous. This is how outside meshers get the size function: one file, which all of them
-//! interpolate the same way (`baselines/PROTOCOL.md`). Our own meshers' `--background` is [`crate::spacing::background()`], which interpolates nothing.
+//! interpolate the same way (`baselines/PROTOCOL.md`).
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
