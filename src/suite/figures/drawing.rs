@@ -68,7 +68,7 @@ impl Numbers {
     pub fn run(self, run: &Run) -> Self {
         self.with("domain", run.asked.domain.clone())
             .number("t", run.asked.t)
-            .number("t_effective", run.t)
+            .number("t_effective", run.case.t())
             .number("c_b", run.asked.c_b)
             .with("mesh", run.fingerprint())
     }
@@ -122,7 +122,7 @@ pub(super) fn ground(scene: &mut Scene, run: &Run, fill: Fill) {
     for corners in &run.ground {
         scene.area(*corners, fill);
     }
-    segments(scene, &run.domain);
+    segments(scene, &run.case.domain);
 }
 
 /// The domain's segments.

@@ -89,11 +89,11 @@ pub(super) fn middle(run: &Run) -> Vec<Middle> {
 
 /// The point r inside the domain where two circles on a segment meet, and its distance to it.
 fn meeting_above(run: &Run, segment: usize, one: &Disc, other: &Disc) -> Option<(DVec2, f64)> {
-    let [a, b] = run.domain.ends(segment);
+    let [a, b] = run.case.domain.ends(segment);
     let points = meeting_points(one, other)?;
     let r = points
         .into_iter()
-        .filter(|point| run.domain.contains(*point))
+        .filter(|point| run.case.domain.contains(*point))
         .max_by(|u, v| u.y.total_cmp(&v.y))?;
     let h_r = (b - a).perp_dot(r - a).abs() / a.distance(b);
     Some((r, h_r))

@@ -52,8 +52,8 @@ pub(super) fn find() -> Result<Figure1, String> {
             title,
             bitten,
             bitten_before: before,
-            front_arcs: front::arcs(&run.domain, &discs),
-            front_pieces: front::pieces(&run.domain, &discs),
+            front_arcs: front::arcs(&run.case.domain, &discs),
+            front_pieces: front::pieces(&run.case.domain, &discs),
         };
         before = bitten;
         panel
@@ -124,7 +124,8 @@ pub(super) fn layers(bites: &[Bite]) -> Vec<usize> {
 
 impl Figure1 {
     fn scene(&self, panel: &Panel) -> Scene {
-        let Run { domain, bites, .. } = &self.run;
+        let Run { case, bites, .. } = &self.run;
+        let domain = &*case.domain;
         let bounds = domain.bounds();
         let margin = 0.03 * bounds.size().max_element();
         let window = Rect {
@@ -197,11 +198,11 @@ impl Figure1 {
             SEEDS * VERTICES.len() as u64,
             VERTICES[0],
             VERTICES[VERTICES.len() - 1],
-            short(shortest_side(&self.run.domain))
+            short(shortest_side(&self.run.case.domain))
         );
         let numbers = Numbers::default()
             .run(&self.run)
-            .points("vertices", self.run.domain.vertices())
+            .points("vertices", self.run.case.domain.vertices())
             .with("panels", panels)
             .with("circles", circles.collect::<Vec<serde_json::Value>>());
         Drawing {

@@ -48,7 +48,7 @@ impl Figure2<'_> {
 
     fn scene(&self) -> Scene {
         let Middle { p1, p2, q1, q2, q, .. } = &self.found;
-        let domain = &self.run.domain;
+        let domain = &self.run.case.domain;
         let window = drawing::above(domain, &[self.p0, *p1, *p2, *q1, *q2, *q], q.centre.y);
         let mut scene = Scene::new("", window);
         drawing::ground(&mut scene, self.run, Fill::Domain);

@@ -7,6 +7,7 @@ use crate::geometry::DVec2;
 use crate::geometry::near::Disc;
 use crate::meshers::Reason;
 use crate::suite::charts::scene::{Fill, Mark, Pen, Scene, Sheet};
+use crate::theory::{Promises, Rule, packing_constant};
 
 /// A biting circle in the interior, and what the panels show of it.
 pub(super) struct Figure3<'a> {
@@ -42,18 +43,24 @@ pub(super) fn find(runs: &[Run]) -> Result<Figure3<'_>, String> {
         .ok_or_else(|| "no run has a bite so deep in the interior that its extended circle is, too".to_owned())
 }
 
+/// nn of a mesh vertex over its biting radius is at most this (Lemma 5.7).
+fn largest_nn(t: f64) -> f64 {
+    let rule = Rule::Earlier;
+    Promises { rule, t }.nn_at_vertices()[1]
+}
+
 /// What there is to show of a bite, where its extended circle lies in the domain and it shares a point with one other alone.
 fn of_bite(run: &Run, k: usize) -> Option<Figure3<'_>> {
     if run.bites[k].reason != Reason::FrontVertex {
         return None;
     }
-    let (x, t) = (run.disc(k), run.t);
+    let (x, t) = (run.disc(k), run.case.t());
     let scaled = |factor: f64| Disc {
         radius: factor * x.radius,
         ..x
     };
-    let (packing, extended) = (scaled(1.0 / (2.0 + t)), scaled(2.0 / (1.0 - t)));
-    let (_, to_boundary) = run.domain.index().nearest(x.centre)?;
+    let (packing, extended) = (scaled(packing_constant(1.0, t)), scaled(largest_nn(t)));
+    let (_, to_boundary) = run.case.domain.index().nearest(x.centre)?;
     if to_boundary < extended.radius {
         return None;
     }
@@ -164,7 +171,7 @@ impl Figure3<'_> {
 
     /// Picture, caption and numbers.
     pub fn drawing(&self) -> Drawing<'static> {
-        let (c_b, t) = (self.run.asked.c_b, self.run.t);
+        let (c_b, t) = (self.run.asked.c_b, self.run.case.t());
         let nn = self.nearest.centre.distance(self.x.centre);
         let caption = format!(
             "Biting and packing circles. (a) The biting circle B(x, c_b f(x)) and the packing circle B(x, c_p f(x)) of a point x, with \
@@ -178,14 +185,14 @@ impl Figure3<'_> {
              neighbour, a wide lens preferred.",
             short(c_b),
             short(t),
-            short(c_b / (2.0 + t)),
-            short(2.0 * c_b / (1.0 - t)),
+            short(packing_constant(c_b, t)),
+            short(c_b * largest_nn(t)),
             short(self.x.radius),
             short(self.other.radius),
             self.covering,
             short(nn / self.x.radius),
             short(1.0 - t),
-            short(2.0 / (1.0 - t)),
+            short(largest_nn(t)),
             self.within,
             self.run.told(),
             self.seen

@@ -66,7 +66,7 @@ pub(super) fn find(runs: &[Run]) -> Result<Figure4<'_>, String> {
     let (cut_off, second) = sort(|found| found.cut_by.is_some() && !found.is_inside);
     let (cut_off_inside, third) = sort(|found| found.cut_by.is_some() && found.is_inside);
     let one_sided = |(run, found): &&(&Run, Obtuse)| {
-        found.is_inside && found.cut_by.is_some_and(|segment| run.domain.is_boundary(segment))
+        found.is_inside && found.cut_by.is_some_and(|segment| run.case.domain.is_boundary(segment))
     };
     let seen = seen.ok_or("no run has an obtuse triangle that sees its circumcentre")?;
     Ok(Figure4 {
@@ -101,7 +101,7 @@ fn obtuse(run: &Run) -> impl Iterator<Item = Obtuse> + '_ {
             corners,
             circle,
             cut_by: cut_by(run, corners, centre),
-            is_inside: run.domain.contains(centre),
+            is_inside: run.case.domain.contains(centre),
             is_delaunay: is_delaunay(run, corners),
         })
     })
@@ -121,11 +121,11 @@ fn cut_by(run: &Run, corners: [DVec2; 3], centre: DVec2) -> Option<usize> {
     let seen = corners.map(|corner| corner.lerp(inner, PULLED_IN));
     let holds = |p: DVec2| orient2d(a, b, p) < 0.0 && orient2d(b, centre, p) < 0.0 && orient2d(centre, a, p) < 0.0;
     let hides = |segment: &usize| {
-        let [p, q] = run.domain.ends(*segment);
+        let [p, q] = run.case.domain.ends(*segment);
         let crosses = |corner: DVec2| segments_meet(centre, corner, p, q) == Meeting::Cross;
         seen.into_iter().any(crosses) || holds(p) || holds(q)
     };
-    (0..run.domain.segments().len()).find(hides)
+    (0..run.case.domain.segments().len()).find(hides)
 }
 
 /// The biting circle that covers the circumcentre deepest.
@@ -148,7 +148,7 @@ fn scene(run: &Run, title: &str, found: &Obtuse, names: [&str; 3]) -> Scene {
     drawing::edges(&mut scene, run);
     let [a, b, c] = found.corners;
     scene.line([a, b, c, a], Pen::Triangle);
-    drawing::segments(&mut scene, &run.domain);
+    drawing::segments(&mut scene, &run.case.domain);
     scene.circle(found.circle, Pen::Circumcircle);
     scene.line([found.circle.centre, c], Pen::Sight);
     drawing::other_centres(&mut scene, run, &found.corners);

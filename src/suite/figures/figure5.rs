@@ -47,10 +47,10 @@ fn best<T>(runs: &[Run], all: fn(&Run) -> Vec<T>, clarity: impl Fn(&T) -> f64) -
 /// Circles, the triangle of their centres and r, and h_r.
 fn scene(run: &Run, title: &str, circles: &[(&Disc, Pen)], [p1, q]: [&Disc; 2], r: DVec2) -> Scene {
     let discs: Vec<Disc> = circles.iter().map(|(disc, _)| **disc).collect();
-    let mut scene = Scene::new(title, drawing::above(&run.domain, &discs, q.centre.y));
+    let mut scene = Scene::new(title, drawing::above(&run.case.domain, &discs, q.centre.y));
     drawing::ground(&mut scene, run, Fill::Domain);
     for (disc, pen) in circles {
-        drawing::circle(&mut scene, &run.domain, disc, *pen);
+        drawing::circle(&mut scene, &run.case.domain, disc, *pen);
     }
     let foot = DVec2::new(r.x, q.centre.y);
     scene.line([p1.centre, r, q.centre], Pen::Auxiliary);
@@ -94,7 +94,7 @@ impl Figure5<'_> {
 
     fn caption(&self) -> String {
         let ((first, a), (second, b)) = (&self.progressive, &self.middle);
-        let is_attained = a.h_r / a.p1.radius < least_progressive_height(first.t) * (1.0 + 1e-6);
+        let is_attained = a.h_r / a.p1.radius < least_progressive_height(first.case.t()) * (1.0 + 1e-6);
         let attained = match is_attained {
             true => ", which is attained: f falls from p₁ to q as steeply as it may",
             false => "",
@@ -108,11 +108,11 @@ impl Figure5<'_> {
              promises at least {} for t = {}.\n\nDrawn (a) from {}, of {} such bites the one whose circles differ most; (b) from {}, of \
              {} such bites the one with the widest gap q₁q₂ for its circle, circles that differ preferred.",
             short(a.h_r / a.p1.radius),
-            short(least_progressive_height(first.t)),
-            short(first.t),
+            short(least_progressive_height(first.case.t())),
+            short(first.case.t()),
             short(b.h_r / b.p1.radius),
-            short(least_meeting_height(second.t)),
-            short(second.t),
+            short(least_meeting_height(second.case.t())),
+            short(second.case.t()),
             first.told(),
             self.seen[0],
             second.told(),

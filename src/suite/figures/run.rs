@@ -1,6 +1,7 @@
 //! Runs of biting that figures are found in: the paper to the letter, on domains that meet its hypotheses.
 
 use super::labels;
+use crate::Case;
 use crate::delaunay::triangulate;
 use crate::domain::{self, Domain, gallery};
 use crate::geometry::DVec2;
@@ -9,12 +10,11 @@ use crate::geometry::tolerance::ALONG_SEGMENT;
 use crate::mesh::{Mesh, Piece};
 use crate::meshers::biting::{Biting, Corners, HeadOn, Order, TO_THE_LETTER};
 use crate::meshers::{Bite, Budget, Mesher, Reason, Request, Trace};
-use crate::spacing::{self, Options, Spacing};
+use crate::spacing::Spacing;
 use crate::suite::rows::record::{Cell, quoted};
 use crate::suite::run::measure::fingerprint;
 use crate::theory::Rule;
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// What is asked of a run. Its spacing is lfs.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,10 +50,7 @@ impl Asked {
 /// A run with every bite.
 pub(super) struct Run {
     pub asked: Asked,
-    pub domain: Domain,
-    pub spacing: Arc<dyn Spacing>,
-    /// c_b times the Lipschitz constant of the spacing as evaluated.
-    pub t: f64,
+    pub case: Case,
     pub bites: Vec<Bite>,
     pub mesh: Mesh,
     /// Triangles that fill the domain, for areas.
@@ -66,20 +63,19 @@ const MOST_VERTICES: usize = 700;
 impl Run {
     /// Bites and triangulates `domain`, the one that `asked` names.
     pub fn on(domain: Domain, asked: Asked) -> Result<Self, String> {
-        let prepared = spacing::build("lfs", &domain, &Options::new(asked.t, asked.c_b));
-        let prepared = prepared.map_err(|error| format!("{}: {error}", asked.command()))?;
-        Self::with(domain, prepared.function, asked)
+        let case = Case::new(domain, "lfs", asked.t, asked.c_b);
+        Self::of(case.map_err(|error| format!("{}: {error}", asked.command()))?, asked)
     }
 
-    /// The same with the spacing that there is already.
-    fn with(domain: Domain, spacing: Arc<dyn Spacing>, asked: Asked) -> Result<Self, String> {
+    /// Of a case that there is already.
+    fn of(case: Case, asked: Asked) -> Result<Self, String> {
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", asked.command());
         let request = Request {
             budget: Budget {
                 max_vertices: Some(MOST_VERTICES),
                 ..Budget::default()
             },
-            ..Request::new(asked.c_b)
+            ..case.request()
         };
         let mesher = Biting {
             rule: Rule::Earlier,
@@ -88,17 +84,16 @@ impl Run {
             head_on: HeadOn::Leave,
         };
         let mut trace = Trace::watching();
-        let mesh = mesher.mesh(&domain, &*spacing, &request, &mut trace);
+        let mesh = case.mesh_as(&mesher, &request, &mut trace);
         let mesh = mesh.map_err(|error| told(&error))?;
-        let chains = Piece::chains(&domain, vec![Vec::new(); domain.segments().len()]);
-        let ground = triangulate(&domain, domain.vertices().to_vec(), chains).map_err(|error| told(&error))?;
+        let domain = &*case.domain;
+        let chains = Piece::chains(domain, vec![Vec::new(); domain.segments().len()]);
+        let ground = triangulate(domain, domain.vertices().to_vec(), chains).map_err(|error| told(&error))?;
         Ok(Self {
-            t: asked.c_b * spacing.lipschitz(),
-            spacing,
             bites: trace.bites.unwrap_or_default(),
             ground: (0..ground.triangles.len()).map(|k| ground.corners(k)).collect(),
             mesh,
-            domain,
+            case,
             asked,
         })
     }
@@ -120,19 +115,19 @@ impl Run {
     pub fn disc_at(&self, x: DVec2) -> Disc {
         Disc {
             centre: x,
-            radius: self.asked.c_b * self.spacing.at(x),
+            radius: self.case.c_b * self.case.spacing.function.at(x),
         }
     }
 
     /// The bite before number `before`, centred on `segment`, whose circle leaves the segment at `point`.
     pub fn circle_through(&self, point: DVec2, segment: usize, before: usize) -> Option<usize> {
-        let found = labels::circle_through(&self.bites[..before], self.domain.ends(segment), point);
+        let found = labels::circle_through(&self.bites[..before], self.case.domain.ends(segment), point);
         found.filter(|k| self.is_on(*k, segment))
     }
 
     /// Whether bite `k` is centred on `segment`.
     fn is_on(&self, k: usize, segment: usize) -> bool {
-        let [a, b] = self.domain.ends(segment);
+        let [a, b] = self.case.domain.ends(segment);
         match self.bites[k].reason {
             Reason::Progressive { segment: own } | Reason::Middle { segment: own, .. } => own == segment,
             Reason::InputVertex => [a, b].contains(&self.bites[k].centre),
@@ -142,11 +137,11 @@ impl Run {
 
     /// Whether a figure on this segment reads well: it lies level, with the domain above it.
     pub fn is_level(&self, segment: usize) -> bool {
-        let [a, b] = self.domain.ends(segment);
+        let [a, b] = self.case.domain.ends(segment);
         let above = a.midpoint(b) + 1e-3 * a.distance(b) * DVec2::Y;
         (a.y - b.y).abs() < ALONG_SEGMENT * a.distance(b)
-            && self.domain.is_boundary(segment)
-            && self.domain.contains(above)
+            && self.case.domain.is_boundary(segment)
+            && self.case.domain.contains(above)
     }
 
     /// What a caption says of it.
@@ -155,7 +150,7 @@ impl Run {
             "`{}`, f = lfs limited to the Lipschitz constant α = t / c_b, t = {} (effective {}), c_b = {}, order of bites `{}`: {} bites, {} triangles",
             self.asked.domain,
             short(self.asked.t),
-            short(self.t),
+            short(self.case.t()),
             short(self.asked.c_b),
             self.asked.order(),
             self.bites.len(),
@@ -218,7 +213,7 @@ pub(super) fn searched() -> Vec<Run> {
 }
 
 fn in_both_orders(domain: &Domain, name: &str, t: f64, c_b: f64) -> Vec<Run> {
-    let Ok(prepared) = spacing::build("lfs", domain, &Options::new(t, c_b)) else {
+    let Ok(case) = Case::new(domain.clone(), "lfs", t, c_b) else {
         return Vec::new();
     };
     let run = |order: Order| {
@@ -228,7 +223,7 @@ fn in_both_orders(domain: &Domain, name: &str, t: f64, c_b: f64) -> Vec<Run> {
             c_b,
             order,
         };
-        Run::with(domain.clone(), prepared.function.clone(), asked).ok()
+        Run::of(case.clone(), asked).ok()
     };
     ORDERS.into_iter().filter_map(run).collect()
 }

@@ -10,7 +10,7 @@ use crate::theory::least_meeting_height;
 fn figure_2_is_edge_protection() {
     let figure = figure2::find(material().runs()).unwrap();
     let (run, found, p0) = (figure.run, figure.found, figure.p0);
-    let ends = run.domain.ends(found.segment);
+    let ends = run.case.domain.ends(found.segment);
     for (name, disc) in [
         ("p0", p0),
         ("p1", found.p1),
@@ -65,7 +65,15 @@ fn figure_5_has_r_on_both_circles_and_its_distance() {
     let (run, a) = figure.progressive;
     let (other_run, b) = figure.middle;
     for (run, segment, p1, q, r, h_r, least) in [
-        (run, a.segment, a.p1, a.q, a.r, a.h_r, least_progressive_height(run.t)),
+        (
+            run,
+            a.segment,
+            a.p1,
+            a.q,
+            a.r,
+            a.h_r,
+            least_progressive_height(run.case.t()),
+        ),
         (
             other_run,
             b.segment,
@@ -73,12 +81,12 @@ fn figure_5_has_r_on_both_circles_and_its_distance() {
             b.q,
             b.r,
             b.h_r,
-            least_meeting_height(other_run.t),
+            least_meeting_height(other_run.case.t()),
         ),
     ] {
         assert!(is_on_circle(r, &p1) && is_on_circle(r, &q) && is_inside(run, r));
         assert!(is_biting(run, &p1) && is_biting(run, &q));
-        let ends = run.domain.ends(segment);
+        let ends = run.case.domain.ends(segment);
         assert!(is_on_segment(p1.centre, ends) && is_on_segment(q.centre, ends));
         // Twice the area of the triangle p1 q r over its base.
         let sides = [

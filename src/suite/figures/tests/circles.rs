@@ -7,18 +7,18 @@ use crate::geometry::DVec2;
 #[test]
 fn figure_3_has_the_papers_radii() {
     let figure = figure3::find(material().runs()).unwrap();
-    let (c_b, t) = (figure.run.asked.c_b, figure.run.t);
+    let (c_b, t) = (figure.run.asked.c_b, figure.run.case.t());
     assert!(is_biting(figure.run, &figure.x) && is_biting(figure.run, &figure.other));
-    let f = figure.run.spacing.at(figure.x.centre);
+    let f = figure.run.case.spacing.function.at(figure.x.centre);
     assert!((figure.packing.radius - c_b / (2.0 + t) * f).abs() < ROUNDING * f);
     assert!((figure.extended.radius - 2.0 * c_b / (1.0 - t) * f).abs() < ROUNDING * f);
-    assert!((t - c_b * figure.run.spacing.lipschitz()).abs() < 1e-15);
+    assert!((t - c_b * figure.run.case.spacing.function.lipschitz()).abs() < 1e-15);
 }
 
 #[test]
 fn packing_circles_are_disjoint() {
     let figure = figure3::find(material().runs()).unwrap();
-    let share = 1.0 / (2.0 + figure.run.t);
+    let share = 1.0 / (2.0 + figure.run.case.t());
     let bites = &figure.run.bites;
     for (k, one) in bites.iter().enumerate() {
         for other in &bites[..k] {
@@ -48,7 +48,10 @@ fn z_is_in_the_extended_circle_which_is_in_the_domain() {
     let distances: Vec<f64> = others.map(|point| point.distance(figure.x.centre)).collect();
     let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
     assert_eq!(nearest, figure.nearest.centre.distance(figure.x.centre));
-    assert!(nearest <= figure.extended.radius && nearest >= (1.0 - figure.run.t) * figure.x.radius * (1.0 - ROUNDING));
+    assert!(
+        nearest <= figure.extended.radius
+            && nearest >= (1.0 - figure.run.case.t()) * figure.x.radius * (1.0 - ROUNDING)
+    );
     assert_eq!(
         distances
             .iter()

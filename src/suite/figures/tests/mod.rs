@@ -34,15 +34,15 @@ fn is_on_segment(point: DVec2, [a, b]: [DVec2; 2]) -> bool {
 
 /// Whether a circle is the biting circle of its centre.
 fn is_biting(run: &Run, disc: &Disc) -> bool {
-    let radius = run.asked.c_b * run.spacing.at(disc.centre);
+    let radius = run.asked.c_b * run.case.spacing.function.at(disc.centre);
     (disc.radius - radius).abs() <= ROUNDING * radius
 }
 
 /// Whether a point is in the domain, by counting the boundary to its right; not for points on it.
 fn is_inside(run: &Run, point: DVec2) -> bool {
-    let segments = (0..run.domain.segments().len()).filter(|segment| run.domain.is_boundary(*segment));
+    let segments = (0..run.case.domain.segments().len()).filter(|segment| run.case.domain.is_boundary(*segment));
     let right = segments.filter(|segment| {
-        let [a, b] = run.domain.ends(*segment);
+        let [a, b] = run.case.domain.ends(*segment);
         (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
     });
     right.count() % 2 == 1

@@ -36,8 +36,8 @@ fn every_arc_of_the_front_is_uncovered_and_in_the_domain() {
         for piece in &panel.front_pieces {
             for point in (1..20).map(|k| piece[0].lerp(piece[1], f64::from(k) / 20.0)) {
                 assert!(!eaten(&discs, point, 1.0 - 1e-8), "{}: {point} is eaten", panel.title);
-                let segments = 0..run.domain.segments().len();
-                let mut ends = segments.map(|segment| run.domain.ends(segment));
+                let segments = 0..run.case.domain.segments().len();
+                let mut ends = segments.map(|segment| run.case.domain.ends(segment));
                 assert!(ends.any(|ends| is_on_segment(point, ends)), "{}: {point}", panel.title);
             }
         }
@@ -69,12 +69,13 @@ fn no_arc_of_the_front_is_missing() {
 #[test]
 fn panels_stop_where_the_paper_does() {
     let Figure1 { run, panels } = figure();
-    let vertices = run.domain.vertices();
+    let vertices = run.case.domain.vertices();
     let counts: Vec<usize> = panels.iter().map(|panel| panel.bitten).collect();
     assert_eq!(counts[..3], [0, vertices.len(), vertices.len() + 1]);
     let centres = |range: std::ops::Range<usize>| run.bites[range].iter().map(|bite| bite.centre);
     assert!(centres(0..counts[1]).all(|centre| vertices.contains(&centre)));
-    let boundary = |centre: DVec2| (0..run.domain.segments().len()).any(|s| is_on_segment(centre, run.domain.ends(s)));
+    let boundary =
+        |centre: DVec2| (0..run.case.domain.segments().len()).any(|s| is_on_segment(centre, run.case.domain.ends(s)));
     assert!(centres(counts[1]..counts[3]).all(|centre| boundary(centre) && !vertices.contains(&centre)));
     assert!(centres(counts[3]..counts[5]).all(|centre| !boundary(centre)));
     assert_eq!(counts[4], counts[3] + 1);

@@ -12,7 +12,7 @@ fn figure() -> Figure4<'static> {
 /// Whether an input segment lies between two points, by Cramer's rule.
 fn is_hidden(run: &Run, from: DVec2, to: DVec2) -> bool {
     let between = |segment: usize| {
-        let [a, b] = run.domain.ends(segment);
+        let [a, b] = run.case.domain.ends(segment);
         let (sight, wall) = (to - from, b - a);
         let determinant = sight.perp_dot(wall);
         if determinant == 0.0 {
@@ -22,7 +22,7 @@ fn is_hidden(run: &Run, from: DVec2, to: DVec2) -> bool {
         let along_wall = (a - from).perp_dot(sight) / determinant;
         (1e-9..1.0 - 1e-9).contains(&along_sight) && (0.0..=1.0).contains(&along_wall)
     };
-    (0..run.domain.segments().len()).any(between)
+    (0..run.case.domain.segments().len()).any(between)
 }
 
 /// The share of a triangle that its circumcentre sees.
@@ -90,7 +90,7 @@ fn c_is_cut_off_though_its_circumcentre_is_in_the_domain() {
     let (run, found) = figure.cut_off_inside;
     assert!(seen(run, &found) < 1.0 && is_inside(run, found.circle.centre));
     let segment = found.cut_by.unwrap();
-    let [a, b] = run.domain.ends(segment);
+    let [a, b] = run.case.domain.ends(segment);
     let across = 1e-6 * (b - a).perp();
     let middle = a.midpoint(b);
     assert!(

@@ -8,6 +8,7 @@ use super::record::{Bound, Labelled, Statement};
 use super::search::{Constraint, Effort, Problem, Sense, Unknown};
 use super::slopes::Number;
 use crate::geometry::interval::Interval;
+use crate::theory::{Promises, Rule};
 
 mod boundary;
 mod control;
@@ -67,6 +68,12 @@ const SLOPE: Unknown = Unknown {
     name: "slope between the two points, as a share of t",
     range: |_| (-1.0, 1.0),
 };
+
+/// The bounds as the paper has them.
+fn papers(t: f64) -> Promises {
+    let rule = Rule::Earlier;
+    Promises { rule, t }
+}
 
 fn number(value: f64) -> Number {
     Number::fixed(Interval::point(value))

@@ -24,7 +24,7 @@ const LEMMA_5_7_LOWER: Statement = Statement {
     quantity: "nn(x) / (c_b f(x)) at a mesh vertex x",
     printed: Bound {
         says: "1 − t",
-        at: |t| 1.0 - t,
+        at: |t| papers(t).nn_at_vertices()[0],
     },
     range: (0.0, 0.75),
     range_says: "t < 1",
@@ -70,7 +70,7 @@ const LEMMA_5_7_UPPER: Statement = Statement {
     sense: Sense::AtMost,
     printed: Bound {
         says: "2 / (1 − t)",
-        at: |t| 2.0 / (1.0 - t),
+        at: |t| papers(t).nn_at_vertices()[1],
     },
     range: (0.0, 0.75),
     range_says: "t < 1",
@@ -104,7 +104,7 @@ const LEMMA_5_8_LOWER: Statement = Statement {
     quantity: "nn(y) / (c_b f(y)) at a point y that is no mesh vertex",
     printed: Bound {
         says: "1 / (2 + 2t)",
-        at: |t| 1.0 / (2.0 + 2.0 * t),
+        at: |t| papers(t).nn_at_points()[0],
     },
     range: (0.0, 1.0),
     range_says: "any t",
@@ -159,7 +159,7 @@ const LEMMA_5_8_UPPER: Statement = Statement {
     sense: Sense::AtMost,
     printed: Bound {
         says: "(3 − t) / (1 − t)²",
-        at: |t| (3.0 - t) / (1.0 - t).powi(2),
+        at: |t| papers(t).nn_at_points()[1],
     },
     range: (0.0, 0.75),
     range_says: "t < 1",

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::suite::lemmas::record::Measured;
-use crate::theory::Claim;
+use crate::theory::{Claim, beta, packing_constant};
 
 pub(super) const STATEMENTS: &[Statement] = &[LEMMA_5_2_LOWER, LEMMA_5_2_UPPER, LEMMA_5_3, LEMMA_5_4, THEOREM_5_5];
 
@@ -97,7 +97,7 @@ const LEMMA_5_4: Statement = Statement {
     quantity: "|x − y| / (c_b (f(x) + f(y))) for two centres: the largest c_p / c_b whose circles are disjoint",
     printed: Bound {
         says: "1 / (2 + t)",
-        at: |t| 1.0 / (2.0 + t),
+        at: |t| packing_constant(1.0, t),
     },
     range: (0.0, 1.0),
     range_says: "any t",
@@ -143,7 +143,7 @@ const THEOREM_5_5: Statement = Statement {
     sense: Sense::AtMost,
     printed: Bound {
         says: "(1 + t) / (1 − t)",
-        at: |t| (1.0 + t) / (1.0 - t),
+        at: beta,
     },
     range: (0.0, 0.75),
     range_says: "t < 1",
