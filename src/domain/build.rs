@@ -1,4 +1,4 @@
-//! [`Domain::new`]: from a PSLG to faces, inside and outside.
+//! [`Domain::new`]: finds the faces of a PSLG, and which of them are inside.
 
 use super::corners::Corners;
 use super::error::{DomainError, Fault, FaultKind};
@@ -55,7 +55,7 @@ impl Domain {
         Ok(Self::keep_inside(&input, segments, classes, &index))
     }
 
-    /// Leaves out what no inside face touches, and merges the faces that this joins.
+    /// Leaves out segments and vertices that no inside face touches, and merges the faces that this joins.
     fn keep_inside(input: &Pslg, segments: Vec<Segment>, classes: Classes, index: &SegmentIndex) -> Self {
         let Classes { faces, mut notes } = classes;
         let touches = |s: &Segment| faces[s.left].inside || faces[s.right].inside;

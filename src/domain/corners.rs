@@ -1,11 +1,11 @@
-//! Angles between neighbouring segments at every vertex: the input angles the paper's hypothesis is about (§5.1).
+//! Angles between neighbouring segments at every vertex: the input angles of the paper's hypothesis (§5.1).
 
 use super::{Domain, Face, Segment};
 use crate::geometry::tolerance::{ACUTE_MARGIN, NO_ANGLE, RIGHT_ANGLE_DEG};
 use crate::geometry::{DVec2, turn};
 use std::f64::consts::{FRAC_PI_3, TAU};
 
-/// The part of a vertex' neighbourhood between two angularly neighbouring segments.
+/// The part of a vertex' neighbourhood between two segments that follow one another around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wedge {
     /// The segment on the clockwise side.
@@ -21,7 +21,7 @@ pub struct Wedge {
 }
 
 impl Wedge {
-    /// Whether it is an angle under 90° that opens to the outside.
+    /// Whether the wedge is an angle under 90° that opens to the outside.
     pub fn is_notch(&self) -> bool {
         !self.inside && self.angle > NO_ANGLE && self.angle.to_degrees() < 90.0 - RIGHT_ANGLE_DEG
     }
@@ -118,12 +118,12 @@ impl Domain {
         self.corners.smallest_input.to_degrees()
     }
 
-    /// The smallest angle between two segments at a common vertex on any side, in degrees; 360 if none meet.
+    /// The smallest angle between two segments at a common vertex, inside or outside, in degrees; 360 if none meet.
     pub fn smallest_segment_angle_deg(&self) -> f64 {
         self.corners.smallest_segment.to_degrees()
     }
 
-    /// Whether no two neighbouring segments meet at an angle under 90° on any side, as §5.1 assumes.
+    /// Whether no two neighbouring segments meet at an angle under 90°, inside or outside, as §5.1 assumes.
     pub fn has_no_acute_angle(&self) -> bool {
         self.smallest_segment_angle_deg() >= 90.0 - RIGHT_ANGLE_DEG
     }

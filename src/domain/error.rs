@@ -1,4 +1,4 @@
-//! What can be wrong with a domain, told with file, line and remedy.
+//! What can be wrong with a domain, reported with file, line and remedy.
 
 use std::fmt;
 
@@ -38,7 +38,7 @@ pub enum FaultKind {
 }
 
 impl FaultKind {
-    /// Whether [`super::repair`] mends it.
+    /// Whether [`super::repair`] can mend it.
     pub fn is_repairable(self) -> bool {
         use FaultKind::{Crossing, DuplicateVertices, Overlap, RepeatedSegment, VertexOnSegment, ZeroLength};
         matches!(
@@ -78,9 +78,9 @@ pub struct Fault {
     pub vertices: Vec<usize>,
     /// The segments concerned, as indices into the PSLG.
     pub segments: Vec<usize>,
-    /// The line of the file where it shows first, where there is one.
+    /// The line of the file where the fault shows first, if there is a file.
     pub line: Option<usize>,
-    /// What is wrong, in a sentence without its end, with the file's own numbers.
+    /// What is wrong: a sentence without its full stop, with the numbers that the file uses.
     pub message: String,
 }
 
@@ -113,7 +113,7 @@ pub enum DomainError {
         /// The system's reason and what to do.
         message: String,
     },
-    /// No gallery domain of that name, and no such file.
+    /// There is neither a gallery domain nor a file of that name.
     #[error("{name}: {message}")]
     Unknown {
         /// What was asked for.
@@ -124,7 +124,7 @@ pub enum DomainError {
 }
 
 impl DomainError {
-    /// The faults of an invalid PSLG, none for other errors.
+    /// The faults of an invalid PSLG; none for other errors.
     pub fn faults(&self) -> &[Fault] {
         match self {
             Self::Invalid { faults, .. } => faults,

@@ -1,20 +1,20 @@
 //! Which face holds a point, decided exactly, in about a tenth of a microsecond.
 //!
-//! A grid knows the face of every cell that no segment comes near; in the other cells the point looks along +x
-//! ([`SegmentIndex::right_of`]) and takes the side on which it sees the first segment.
+//! A grid contains the face of every cell that no segment comes near. In the other cells the first segment in the direction +x
+//! from the point ([`SegmentIndex::right_of`]) decides: the point lies in the face on the near side of it.
 
 use super::Segment;
 use crate::geometry::segments::{Seen, SegmentIndex};
 use crate::geometry::tolerance::GRID_SLACK;
 use crate::geometry::{DVec2, Rect};
 
-/// Cells a segment: enough that most queries end in the grid.
+/// Cells per segment: enough that most queries end in the grid.
 const CELLS_PER_SEGMENT: f64 = 16.0;
 
 /// Most cells that segments may run through, per segment; makes cells larger where many segments are long.
 const CROSSED_PER_SEGMENT: f64 = 8.0;
 
-/// Mark of cells that a segment meets.
+/// Marks a cell that a segment meets.
 const MIXED: u32 = u32::MAX;
 
 /// Where a point lies.
@@ -22,7 +22,7 @@ const MIXED: u32 = u32::MAX;
 pub enum Place {
     /// In the open face of this number.
     Face(usize),
-    /// On this segment or one of its ends; of several, any.
+    /// On this segment or one of its ends; any of them if there are several.
     Segment(usize),
 }
 
@@ -91,7 +91,7 @@ impl Locator {
         }
     }
 
-    /// Gives the cells that no segment meets their face: one look per run of them.
+    /// Writes the face of each cell that no segment meets, by one query per run of such cells.
     fn fill(&mut self, segments: &[Segment], index: &SegmentIndex) {
         for row in 0..self.rows {
             let mut known = None;
@@ -119,7 +119,7 @@ impl Locator {
         let at = (x - self.origin) * self.cells_per_unit;
         let (column, row) = (at.x as usize, at.y as usize);
         let in_grid = at.x >= 0.0 && at.y >= 0.0 && column < self.columns && row < self.rows;
-        // Beside the grid, and on its border, the look itself decides.
+        // Outside the grid, and on its border, the query itself decides.
         let known = if in_grid {
             self.cells[row * self.columns + column]
         } else {
@@ -133,7 +133,7 @@ impl Locator {
     }
 }
 
-/// Where `x` lies, by what it sees along +x.
+/// Where `x` lies, by the first segment in the direction +x.
 pub(super) fn look(x: DVec2, segments: &[Segment], index: &SegmentIndex) -> Place {
     match index.right_of(x) {
         Seen::On(s) => Place::Segment(s),

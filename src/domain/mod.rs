@@ -46,7 +46,7 @@ pub struct Face {
     pub inside: bool,
     /// The region attribute given by the user, 0 where none was given.
     pub region: f64,
-    /// The largest triangle area the user asked for there; carried through files.
+    /// The largest triangle area that the user asked for there; it is passed on from file to file.
     pub max_area: Option<f64>,
 }
 
@@ -87,7 +87,7 @@ impl Domain {
         &self.vertices
     }
 
-    /// One marker a vertex.
+    /// One marker for each vertex.
     pub fn vertex_markers(&self) -> &[i32] {
         &self.vertex_markers
     }
@@ -129,12 +129,12 @@ impl Domain {
         &self.isolated
     }
 
-    /// What was left out or ignored when the domain was built, in sentences for the user.
+    /// What was left out or ignored when the domain was built, as sentences for the user.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// The segments indexed in space; answers are indices into [`Domain::segments`].
+    /// The spatial index of the segments, which returns indices into [`Domain::segments`].
     pub fn index(&self) -> &SegmentIndex {
         &self.index
     }

@@ -20,7 +20,7 @@ pub struct Region {
     pub point: DVec2,
     /// The attribute its triangles carry.
     pub attribute: f64,
-    /// Largest triangle area the user asked for there. Carried through files; meshers follow the spacing instead.
+    /// Largest triangle area the user asked for there. Passed on from file to file; meshers follow the spacing instead.
     pub max_area: Option<f64>,
 }
 
@@ -42,14 +42,14 @@ impl Default for Fill {
     }
 }
 
-/// Where the parts of a [`Pslg`] came from, for messages. Line numbers count from 1; empty lists where there is no file.
+/// Where the parts of a [`Pslg`] came from, for messages. Line numbers count from 1; lists are empty if there is no file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Source {
     /// File name as the user gave it, or the gallery's name.
     pub file: String,
-    /// The number the file gives to its first vertex and segment: 0 or 1.
+    /// The number of the file's first vertex and segment: 0 or 1.
     pub first_number: usize,
-    /// The file that holds the vertices, where it is another one.
+    /// The file that contains the vertices, if it is another one.
     pub vertex_file: Option<String>,
     /// Line of each vertex.
     pub vertex_lines: Vec<usize>,
@@ -68,7 +68,7 @@ pub struct Pslg {
     pub name: String,
     /// Vertex positions.
     pub vertices: Vec<DVec2>,
-    /// One marker a vertex; empty means all 0.
+    /// One marker for each vertex; empty means all 0.
     pub vertex_markers: Vec<i32>,
     /// Segments between vertices.
     pub segments: Vec<InputSegment>,
@@ -76,9 +76,9 @@ pub struct Pslg {
     pub fill: Fill,
     /// Region points.
     pub regions: Vec<Region>,
-    /// What the reader left out, in sentences for the user.
+    /// What the reader left out, as sentences for the user.
     pub notes: Vec<String>,
-    /// Where it all came from.
+    /// Where its parts came from.
     pub source: Source,
 }
 

@@ -3,7 +3,7 @@
 //! Half-edge 2s walks segment s from first to second end, 2s + 1 walks it back. Around every vertex the outgoing
 //! half-edges are sorted by exact angle; following each half-edge by the next one clockwise at its end traces the loops
 //! that have one face on their left. Every connected component has exactly one loop that runs around its outside; the
-//! face beyond it is what the component's rightmost vertex sees to its right.
+//! face outside this loop is the one that the component's rightmost vertex sees to its right.
 
 use super::pslg::InputSegment;
 use crate::geometry::DVec2;
@@ -149,7 +149,7 @@ fn components(loop_of: &[usize], loops: usize) -> Vec<usize> {
     (0..loops).map(|l| sets.find(l)).collect()
 }
 
-/// Numbers the faces: 0 the unbounded one, then one for every loop that is no component's outside.
+/// Numbers the faces: 0 is the unbounded one, then comes one for every loop that does not run around a component.
 fn faces_of_loops(
     vertices: &[DVec2],
     index: &SegmentIndex,
@@ -167,7 +167,7 @@ fn faces_of_loops(
         face_of_loop[inner] = faces;
         faces += 1;
     }
-    // Whatever a rightmost vertex sees to its right belongs to a component that reaches further right: placed before.
+    // What a rightmost vertex sees to its right belongs to a component that reaches further right, which has its faces already.
     for &(v, outside) in outer {
         let others = |s: usize| component[loop_of[2 * s]] != component[outside];
         face_of_loop[outside] = match index.right_of_where(vertices[v], others) {

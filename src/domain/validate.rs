@@ -10,7 +10,7 @@ use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{DVec2, Rect};
 use std::cmp::Ordering;
 
-/// Most faults collected; a hopeless file would otherwise yield a quadratic number of crossings.
+/// Most faults collected; a hopeless file would otherwise have a quadratic number of crossings.
 const MOST_FAULTS: usize = 1000;
 
 /// Largest coordinate: spade takes 3e60, and products of four of them, as in the in-circle test, stay finite. The advice
@@ -20,11 +20,11 @@ pub const LARGEST_COORDINATE: f64 = 1e60;
 /// Smallest coordinate but 0: spade takes 2e-43, and products of four do not vanish. The advice names it.
 const SMALLEST: f64 = 1e-40;
 
-/// Smallest larger side, so that points between the vertices keep coordinates above [`SMALLEST`] as well, which rounding
-/// leaves at 1e-16 of it where they are not 0. The advice names it.
+/// Smallest value of the larger side of the bounding box. Rounding leaves coordinates of points between the vertices at 1e-16 of
+/// it or at 0, so they too stay above [`SMALLEST`]. The advice names it.
 const SMALLEST_SIDE: f64 = 1e-24;
 
-/// Every fault of coordinates, indices and segments; what holds faces is judged by [`super::Domain::new`].
+/// Every fault of coordinates, indices and segments; [`super::Domain::new`] judges the faces.
 pub fn faults(pslg: &Pslg) -> Vec<Fault> {
     let mut faults = Report {
         pslg,
@@ -289,14 +289,14 @@ impl Report<'_> {
                 self.add(FaultKind::Crossing, vec![], vec![r, s], message);
             }
             Meeting::Overlap if [a, b].contains(&c) && [a, b].contains(&d) => {
-                // The same two places: a repeated segment or two pairs of duplicate vertices, told already.
+                // The same two places: a repeated segment or two pairs of duplicate vertices, reported already.
             }
             Meeting::Overlap => {
                 let message = format!("{} and {} run along each other", self.segment(r), self.segment(s));
                 self.add(FaultKind::Overlap, vec![], vec![r, s], message);
             }
             Meeting::Touch => {
-                // Ends at the same place are one vertex, or duplicates told already.
+                // Ends at the same place are one vertex, or duplicates reported already.
                 for (v, ends, on) in [
                     (first.a, [c, d], s),
                     (first.b, [c, d], s),

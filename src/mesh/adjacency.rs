@@ -32,12 +32,12 @@ impl Edge {
 #[derive(Clone, Debug)]
 pub struct Adjacency {
     edges: Vec<Edge>,
-    /// Edges whose smaller end is v are `edges[first[v]..first[v + 1]]`, by growing larger end.
+    /// Edges whose smaller end is v are `edges[first[v]..first[v + 1]]`, in the order of their larger ends.
     first: Vec<u32>,
 }
 
 impl Adjacency {
-    /// Of triangles whose corners are below `vertices`.
+    /// Built from triangles whose corners are below `vertices`.
     pub fn of(triangles: &[[u32; 3]], vertices: usize) -> Self {
         let sides = |t: usize| {
             let [a, b, c] = triangles[t];
@@ -87,7 +87,7 @@ impl Adjacency {
         Self { edges, first }
     }
 
-    /// All edges, by smaller and then by larger end.
+    /// All edges, in the order of their smaller and then their larger ends.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
@@ -113,7 +113,7 @@ impl Adjacency {
             .collect()
     }
 
-    /// Which vertices each vertex has an edge to.
+    /// For each vertex, the vertices it has an edge to.
     pub fn vertex_neighbours(&self) -> Lists {
         Lists::group(
             self.first.len() - 1,
@@ -125,7 +125,7 @@ impl Adjacency {
     }
 }
 
-/// Lists of numbers, one a vertex, in one allocation.
+/// One list of numbers for each vertex, all in one allocation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Lists {
     start: Vec<u32>,

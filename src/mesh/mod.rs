@@ -20,8 +20,8 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// The chains of mesh edges along all segments, given for each segment the vertices on it with their distances from
-    /// its first end, in any order.
+    /// The chains of mesh edges along all segments. `cuts` contains, for each segment, the vertices on it with their distances
+    /// from its first end, in any order.
     pub fn chains(domain: &Domain, cuts: impl IntoIterator<Item = Vec<(f64, u32)>>) -> Vec<Self> {
         let mut pieces = Vec::new();
         for (segment, mut cuts) in cuts.into_iter().enumerate() {
@@ -46,7 +46,7 @@ impl Piece {
 pub struct Mesh {
     /// Vertex positions.
     pub points: Vec<DVec2>,
-    /// One marker a point: the input's for input vertices, the segment's for points on a segment, else 0.
+    /// One marker for each point: the input's for input vertices, the segment's for points on a segment, else 0.
     pub point_markers: Vec<i32>,
     /// Counter-clockwise triangles, as indices into `points`.
     pub triangles: Vec<[u32; 3]>,
@@ -54,11 +54,11 @@ pub struct Mesh {
     pub regions: Vec<f64>,
     /// The input segments, cut into mesh edges; in segment order, along each segment from its first vertex.
     pub pieces: Vec<Piece>,
-    /// One marker a piece: its segment's.
+    /// One marker for each piece: its segment's.
     pub piece_markers: Vec<i32>,
     /// How many of `points`, from the front, are input vertices.
     pub input_vertices: usize,
-    /// Pieces that are no Delaunay edges and stand only because they were forced.
+    /// Number of pieces that are not Delaunay edges and are edges only because the triangulation is constrained.
     pub forced_pieces: usize,
     /// Triangles by which one front met another, as indices, ascending; empty for methods without a front of elements.
     pub seams: Vec<u32>,
@@ -82,7 +82,7 @@ impl Mesh {
         }
     }
 
-    /// Edges with the triangles on their sides.
+    /// All edges, each with the triangles on its sides.
     pub fn adjacency(&self) -> Adjacency {
         Adjacency::of(&self.triangles, self.points.len())
     }

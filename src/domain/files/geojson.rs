@@ -14,7 +14,7 @@ use std::collections::HashMap;
 /// Parses the text of a GeoJSON file.
 ///
 /// # Errors
-/// [`DomainError::Syntax`] where it is no GeoJSON, holds no polygon, or a ring is not closed.
+/// [`DomainError::Syntax`] if the text is not GeoJSON or contains no polygon, or if a ring is not closed.
 pub fn parse(text: &str, file: &str) -> Result<Pslg, DomainError> {
     let error = |line: Option<usize>, message: String| DomainError::Syntax {
         file: file.to_owned(),
@@ -49,7 +49,7 @@ pub fn parse(text: &str, file: &str) -> Result<Pslg, DomainError> {
         segment: HashMap::new(),
     };
     let total: usize = found.rings.iter().map(|ring| ring.len()).sum();
-    // Where something else than polygons holds positions, lines cannot be told from the text alone.
+    // If anything but polygons contains positions, the text alone does not show which line is whose.
     let lines = if found.skipped == 0 {
         position_lines(text)
     } else {
@@ -68,7 +68,7 @@ pub fn parse(text: &str, file: &str) -> Result<Pslg, DomainError> {
     pslg.fill = Fill::EvenOdd { flips: build.flips };
     if found.skipped > 0 {
         pslg.notes
-            .push(format!("left out {} geometries that are no polygons", found.skipped));
+            .push(format!("left out {} geometries that are not polygons", found.skipped));
     }
     Ok(pslg)
 }
@@ -155,14 +155,14 @@ impl Build {
     }
 }
 
-/// The line where the text stops being JSON, if it does.
+/// The line where the text stops being JSON, if it stops.
 fn json_line(text: &str) -> Option<usize> {
     serde_json::from_str::<serde::de::IgnoredAny>(text)
         .err()
         .map(|fault| fault.line())
 }
 
-/// The line of every innermost array of numbers in the text: in GeoJSON of polygons without boxes, its positions.
+/// The line of every innermost array of numbers in the text: its positions, if the GeoJSON has polygons and no boxes.
 fn position_lines(text: &str) -> Vec<usize> {
     let mut lines = Vec::new();
     let (mut line, mut in_string, mut escaped) = (1, false, false);

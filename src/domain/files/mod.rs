@@ -18,7 +18,7 @@ pub fn load(spec: &str) -> Result<Domain, DomainError> {
 /// The PSLG that `spec` names, not yet validated: what [`super::repair()`] takes.
 ///
 /// # Errors
-/// [`DomainError`] where there is no such name or file, or where the file does not have its format's form.
+/// [`DomainError`] if there is no such name or file, or if the file does not follow its format.
 pub fn read(spec: &str) -> Result<Pslg, DomainError> {
     if let Some(pslg) = gallery::pslg(spec) {
         return pslg.map_err(|message| DomainError::Unknown {
@@ -47,7 +47,7 @@ pub fn read(spec: &str) -> Result<Pslg, DomainError> {
     Ok(pslg)
 }
 
-/// A file's text; bytes that are no UTF-8 are replaced, since they can only stand in comments.
+/// A file's text; bytes that are not UTF-8 are replaced, since they can only be in comments.
 fn read_text(path: &Path) -> Result<String, DomainError> {
     let bytes = std::fs::read(path).map_err(|error| DomainError::Unreadable {
         file: path.display().to_string(),

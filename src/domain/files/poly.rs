@@ -2,7 +2,7 @@
 //!
 //! Four sections, each opened by a line with its count: vertices (`number x y attributes… marker`), segments (`number end
 //! end marker`), hole points (`number x y`), and, if present, regions (`number x y attribute area`; with one value only
-//! it is both, as in Triangle). Everything after `#` is comment, empty lines do not count, commas are blanks. Vertices
+//! it is both, as in Triangle). Everything after `#` is a comment, empty lines are skipped, commas count as blanks. Vertices
 //! are numbered in sequence from 0 or 1, and segments name them by these numbers.
 //!
 //! Reference: J. R. Shewchuk, "Triangle: Engineering a 2D Quality Mesh Generator and Delaunay Triangulator", and the
@@ -12,10 +12,10 @@ use crate::domain::{DomainError, Fill, InputSegment, Pslg, Region};
 use crate::geometry::DVec2;
 use std::str::FromStr;
 
-/// Parses the text of a `.poly` file; `node` gives text and name of the `.node` file, asked for only if needed.
+/// Parses the text of a `.poly` file; `node` returns text and name of the `.node` file, and is called only if needed.
 ///
 /// # Errors
-/// [`DomainError::Syntax`] with the line, or whatever `node` says.
+/// [`DomainError::Syntax`] with the line, or the error of `node`.
 pub fn parse(
     text: &str,
     file: &str,
@@ -150,7 +150,7 @@ struct Line<'a> {
     fields: Vec<&'a str>,
 }
 
-/// The lines of a file that hold anything but comment.
+/// The lines of a file that contain more than a comment.
 struct Lines<'a> {
     file: &'a str,
     lines: std::iter::Enumerate<std::str::Lines<'a>>,

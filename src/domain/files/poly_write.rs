@@ -58,7 +58,7 @@ impl Domain {
     /// For every bounded face a point inside it, well away from its segments; `None` for face 0, and for a face so thin
     /// that no floating-point number was found in it.
     ///
-    /// From the middle of a segment a ray goes straight into the face; the point is half-way to where it first hits.
+    /// A ray goes from the middle of a segment straight into the face; the point is half-way to where the ray first hits.
     /// The longest segments are tried first, and what is found is checked exactly.
     pub fn face_points(&self) -> Vec<Option<DVec2>> {
         let mut points = vec![None; self.faces().len()];

@@ -1,7 +1,7 @@
 //! Named domains: drawn by rule, random by seed, and real outlines.
 //!
-//! `random-convex` and `random-simple` take parameters: `random-simple:n=40,seed=7`. So does `random-pslg`, whose kinds are
-//! one way each to be hard: `random-pslg:kind=fan,seed=7`.
+//! `random-convex` and `random-simple` take parameters: `random-simple:n=40,seed=7`. So does `random-pslg`, each of whose kinds is
+//! hard in one way: `random-pslg:kind=fan,seed=7`.
 
 use super::{Domain, DomainError, Pslg};
 
@@ -10,7 +10,7 @@ mod random;
 mod random_pslg;
 mod shapes;
 
-/// How a named domain comes to be.
+/// How a named domain is made.
 #[derive(Clone, Copy)]
 enum Make {
     /// By a rule without parameters.
@@ -28,7 +28,7 @@ enum Make {
 pub struct Entry {
     /// Its name on the command line.
     pub name: &'static str,
-    /// What it shows, in a line.
+    /// What it shows, in one line.
     pub about: &'static str,
     make: Make,
 }
@@ -127,10 +127,10 @@ pub const ENTRIES: &[Entry] = &[
     ),
 ];
 
-/// The gallery domain that `spec` names, `None` where the gallery has none of that name.
+/// The gallery domain that `spec` names, `None` if the gallery has none of that name.
 ///
 /// # Errors
-/// [`DomainError::Unknown`] where its parameters are wrong.
+/// [`DomainError::Unknown`] if its parameters are wrong.
 pub fn domain(spec: &str) -> Option<Result<Domain, DomainError>> {
     let unknown = |message| DomainError::Unknown {
         name: spec.to_owned(),
@@ -139,7 +139,7 @@ pub fn domain(spec: &str) -> Option<Result<Domain, DomainError>> {
     pslg(spec).map(|made| made.map_err(unknown).and_then(Domain::new))
 }
 
-/// The PSLG that `spec` names, `None` where the gallery has none of that name.
+/// The PSLG that `spec` names, `None` if the gallery has none of that name.
 ///
 /// # Errors
 /// A message that says which parameter is wrong.
@@ -187,7 +187,7 @@ fn random_parameters(text: &str, count: usize, largest: usize) -> Result<(usize,
             }
             _ => {
                 return Err(format!(
-                    "\"{part}\" is no parameter; give n=COUNT and seed=SEED, joined by a comma"
+                    "\"{part}\" is not a parameter; give n=COUNT and seed=SEED, joined by a comma"
                 ));
             }
         }
@@ -200,7 +200,7 @@ pub fn kinds() -> impl Iterator<Item = (&'static str, &'static str)> {
     random_pslg::KINDS.iter().map(|kind| (kind.name, kind.about))
 }
 
-/// How many draws of a `random-pslg` were thrown away, since they were no valid PSLG, before the one that `spec` names.
+/// How many draws of a `random-pslg` were thrown away, because they were not valid, before the one that `spec` names.
 pub fn discarded(spec: &str) -> usize {
     let parameters = spec
         .strip_prefix("random-pslg")
@@ -220,7 +220,7 @@ fn kind_parameters(text: &str) -> Result<(&str, u64), String> {
             Some(("seed", value)) => seed = whole_seed(value)?,
             _ => {
                 return Err(format!(
-                    "\"{part}\" is no parameter; give kind=KIND and seed=SEED, joined by a comma"
+                    "\"{part}\" is not a parameter; give kind=KIND and seed=SEED, joined by a comma"
                 ));
             }
         }

@@ -59,8 +59,8 @@ fn shuffle<T>(values: &mut [T], random: &mut Pcg64) {
     }
 }
 
-/// A random simple polygon of `count` vertices in the unit square: points no closer than half of what a square grid of
-/// them would have, joined in random order, uncrossed by 2-opt moves. Every move shortens the tour, so they end.
+/// A random simple polygon of `count` vertices in the unit square: points no closer than half the spacing of a square grid
+/// of as many points, joined in random order, uncrossed by 2-opt moves. Every move shortens the tour, so the moves end.
 pub(super) fn simple(count: usize, seed: u64) -> Pslg {
     let mut random = Pcg64::seed_from_u64(seed);
     loop {
@@ -68,7 +68,7 @@ pub(super) fn simple(count: usize, seed: u64) -> Pslg {
         uncross(&mut tour);
         let mut pslg = Pslg::new("random-simple");
         pslg.add_ring(tour, 1);
-        // Three points on a line happen once in some 10^10 draws; the next draw is as good.
+        // Three points on a line turn up once in some 10^10 draws; the next draw is as good.
         if Domain::new(pslg.clone()).is_ok() {
             return pslg;
         }

@@ -1,6 +1,6 @@
 //! Cuts segments where they cross, by i_overlay on an integer grid.
 //!
-//! i_overlay tells of every cut through [`OverlayEdgeData`]: each piece gets a number, and the numbers form a forest whose
+//! i_overlay reports every cut through [`OverlayEdgeData`]: each piece gets a number, and the numbers form a forest whose
 //! roots are the segments that went in and whose leaves are the pieces that came out.
 
 use super::{Piece, RepairReport, Work};
@@ -19,7 +19,7 @@ use std::collections::HashMap;
 type GridPoint = [i64; 2];
 
 /// Cuts the segments in `crossing` where they cross each other. With `move_all` every vertex moves to the grid, so that
-/// what i_overlay promises of grid points holds of the result; else vertices stay where they are.
+/// what i_overlay promises for grid points holds for the result; otherwise vertices stay where they are.
 pub(super) fn split(work: &mut Work, crossing: &[usize], move_all: bool, report: &mut RepairReport) {
     let grid = Grid::new(&work.vertices);
     let mut takes_part = vec![move_all; work.vertices.len()];
@@ -94,7 +94,7 @@ fn cut(work: &Work, crossing: &[usize], grid: &Grid) -> Forest {
     let mut overlay: EdgeOverlay<i64, Number> = EdgeOverlay::new(crossing.len());
     for &s in crossing {
         let mut ends = work.ends(s).map(|p| grid.round(p));
-        // All one way, so that windings of pieces that fall together add up and never cancel.
+        // All in one direction, so that the windings of pieces that coincide add up and never cancel.
         ends.sort_unstable();
         let root = overlay.data_store().nodes.len();
         overlay.data_store_mut().nodes.push(Node {
@@ -111,7 +111,7 @@ fn cut(work: &Work, crossing: &[usize], grid: &Grid) -> Forest {
             ShapeType::Subject,
         );
     }
-    // What is filled does not matter: the cuts have been told to the forest by then.
+    // The fill rule does not matter: by then the forest contains the cuts.
     overlay.build_vectors(OverlayRule::Subject, FillRule::EvenOdd);
     overlay.into_data_store()
 }
@@ -157,11 +157,11 @@ struct Node {
     ends: [GridPoint; 2],
     /// The two pieces it was cut into.
     parts: Option<[usize; 2]>,
-    /// The piece it became one with.
+    /// The piece it was merged with.
     merged: Option<usize>,
 }
 
-/// Every piece there ever was.
+/// Every piece that was ever made.
 #[derive(Debug, Default)]
 struct Forest {
     nodes: Vec<Node>,

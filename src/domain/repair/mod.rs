@@ -1,8 +1,8 @@
-//! Mends a PSLG where that needs no guess: duplicates, repeats, T-junctions, crossings.
+//! Mends what can be mended in a PSLG without guessing: duplicates, repeats, T-junctions, crossings.
 //!
 //! Everything that floating-point numbers can express is mended without moving anything: equal vertices become one,
-//! segments of length zero and repeats go, a segment with a vertex on it is cut there. Where segments cross, the point of
-//! crossing is rounded to a grid of [`REPAIR_GRID`] of the PSLG's size; i_overlay finds the crossings and sees to it that
+//! segments of length zero and repeats are removed, a segment with a vertex on it is cut there. Where segments cross, the point
+//! of crossing is rounded to a grid of [`REPAIR_GRID`] of the PSLG's size; i_overlay finds the crossings and makes sure that
 //! the cut and slightly bent pieces cross nothing new. Only segments that cross take part, and their ends stay where
 //! they are; [`RepairReport`] says how far the pieces lie from the segments they came from.
 
@@ -45,7 +45,7 @@ pub struct RepairReport {
 }
 
 impl RepairReport {
-    /// Whether nothing had to be changed.
+    /// Whether nothing was changed.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
@@ -117,7 +117,7 @@ struct Piece {
     a: usize,
     b: usize,
     marker: i32,
-    /// Whether an odd number of rings runs along it; what counts under the even-odd rule.
+    /// Whether an odd number of rings runs along it, which is what counts under the even-odd rule.
     flips: bool,
 }
 
@@ -184,7 +184,7 @@ impl Work {
         SegmentIndex::new((0..self.segments.len()).map(|s| self.ends(s)))
     }
 
-    /// Makes vertices at the same place one: the first, with the first marker that is not 0.
+    /// Merges vertices at the same place into the first of them, with the first marker that is not 0.
     fn merge_duplicates(&mut self, report: &mut RepairReport) {
         let place = |v: &usize| self.vertices[*v] + DVec2::ZERO;
         let mut order: Vec<usize> = (0..self.vertices.len()).collect();
@@ -198,7 +198,7 @@ impl Work {
         report.merged_vertices += self.merge(&first);
     }
 
-    /// Replaces every vertex v by `into[v]`, which is at most v and replaced by itself; returns how many went.
+    /// Replaces every vertex v by `into[v]`, which is at most v and is replaced by itself; returns how many were removed.
     fn merge(&mut self, into: &[usize]) -> usize {
         let mut number = vec![0; into.len()];
         let mut kept = 0;

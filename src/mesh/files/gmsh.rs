@@ -14,7 +14,7 @@ const LINE: usize = 1;
 const TRIANGLE: usize = 2;
 const POINT: usize = 15;
 
-/// Version 4.1: physical names, one entity a marker and a region, nodes, lines and triangles.
+/// Version 4.1: physical names, an entity for each marker and each region, nodes, lines and triangles.
 pub fn text(mesh: &Mesh) -> String {
     let curves = Groups::of(&mesh.piece_markers);
     let surfaces = Groups::of(
@@ -125,7 +125,7 @@ impl Ord for TotalOrder {
     }
 }
 
-/// Points without their z, and triangles; points and lines are passed over, other elements refused.
+/// Points without their z, and triangles; elements that are points or lines are skipped, others refused.
 pub fn parse(text: &str) -> Result<Mesh, Complaint> {
     let mut reader = Reader {
         words: Words::new(text, 1, false),
@@ -247,7 +247,7 @@ impl Reader<'_> {
         let p = DVec2::new(self.words.coordinate()?, self.words.coordinate()?);
         self.words.coordinate()?;
         if self.node.insert(tag, self.mesh.points.len() as u32).is_some() {
-            return Err(self.words.complain(format!("node {tag} stands twice")));
+            return Err(self.words.complain(format!("node {tag} is there twice")));
         }
         self.mesh.points.push(p);
         Ok(())
@@ -283,7 +283,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// One element after its type and tags: a triangle is kept, points and lines are passed over.
+    /// One element after its type and tags: a triangle is kept, points and lines are skipped.
     fn add_element(&mut self, kind: usize, region: f64) -> Result<(), Complaint> {
         match kind {
             TRIANGLE => {
@@ -303,7 +303,7 @@ impl Reader<'_> {
             }
             _ => Err(self
                 .words
-                .complain(format!("an element of Gmsh type {kind} is no triangle"))),
+                .complain(format!("an element of Gmsh type {kind} is not a triangle"))),
         }
     }
 

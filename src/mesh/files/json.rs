@@ -37,17 +37,17 @@ pub fn text(mesh: &Mesh) -> String {
         forced_pieces: mesh.forced_pieces,
         seams: mesh.seams.clone(),
     };
-    // Lists of numbers have no way to fail.
+    // Lists of numbers cannot fail to serialise.
     let mut text = serde_json::to_string(&stored).unwrap_or_default();
     text.push('\n');
     text
 }
 
-/// The same back; complains where lists do not fit together.
+/// Reads it back; complains where lists do not fit together.
 pub fn parse(text: &str) -> Result<Mesh, Complaint> {
     let stored: Stored = serde_json::from_str(text).map_err(|error| Complaint {
         line: error.line().max(1),
-        message: format!("no mesh: {error}"),
+        message: format!("not a mesh: {error}"),
     })?;
     let points = stored.points.len();
     let beyond = |corners: &[u32]| corners.iter().any(|k| *k as usize >= points);

@@ -1,4 +1,4 @@
-//! Mesh files: which formats there are, and the door to writing and reading them.
+//! Mesh files: the formats, and the functions that write and read them.
 //!
 //! | ending | writes | reads | keeps |
 //! |---|---|---|---|
@@ -74,7 +74,7 @@ pub enum Format {
     Json,
 }
 
-/// Endings and formats, in the order they are listed to users.
+/// Endings and formats, in the order in which messages list them.
 const ENDINGS: [(&str, Format); 7] = [
     ("node", Format::Triangle),
     ("ele", Format::Triangle),
@@ -101,7 +101,7 @@ impl Format {
     }
 }
 
-/// The format of `path` where it is among those that `allowed` lets through.
+/// The format of `path`, if `allowed` accepts it.
 fn format_of(path: &Path, allowed: impl Fn(Format) -> bool) -> Result<Format, MeshFileError> {
     Format::of(path).filter(|format| allowed(*format)).ok_or_else(|| {
         let known = ENDINGS
@@ -144,7 +144,7 @@ pub fn carries_values(path: &Path) -> bool {
 /// Writes `mesh` with a value for each of its points: as attribute of a `.node`, as array `u` of a `.vtu`.
 ///
 /// # Errors
-/// Another ending, or what the file system says.
+/// An ending that can carry no values, or what the file system says.
 pub fn write_with_values(mesh: &Mesh, values: &[f64], path: &Path) -> Result<(), MeshFileError> {
     match format_of(path, has_values)? {
         Format::Triangle => write_triangle(mesh, Some(values), path),
@@ -162,7 +162,7 @@ fn write_triangle(mesh: &Mesh, values: Option<&[f64]>, path: &Path) -> Result<()
 /// first one besides the markers.
 ///
 /// # Errors
-/// As [`read`]; other formats; files without such values, or with some that are not finite.
+/// Those of [`read`]; a format that carries no values; a file without such values, or with some that are not finite.
 pub fn read_with_values(path: &Path) -> Result<(Mesh, Vec<f64>), MeshFileError> {
     match format_of(path, has_values)? {
         Format::Triangle => {
@@ -214,7 +214,7 @@ fn with_values(mesh: Mesh, values: Vec<f64>, path: &Path) -> Result<(Mesh, Vec<f
     })
 }
 
-/// Reads a mesh from a file of any origin. Triangles keep their orientation; vertices no triangle uses are kept.
+/// Reads a mesh from a file of any origin. Triangles keep their orientation; vertices that no triangle uses are kept.
 ///
 /// Formats other than `.json` do not say which edges lie on the input's segments: then `pieces` is empty, and the
 /// certificate finds them by the coordinates.
@@ -243,7 +243,7 @@ fn put(files: &[(&Path, &[u8])]) -> Result<(), MeshFileError> {
     })
 }
 
-/// Reads a file and hands its text to a parser, whose complaints get the file's name.
+/// Reads a file and passes its text to a parser, whose complaints get the file's name.
 fn parse<T>(path: &Path, parser: impl FnOnce(&str) -> Result<T, scan::Complaint>) -> Result<T, MeshFileError> {
     let text = std::fs::read_to_string(path).map_err(|source| MeshFileError::Io {
         path: path.to_path_buf(),

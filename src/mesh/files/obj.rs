@@ -17,7 +17,7 @@ pub fn text(mesh: &Mesh) -> String {
     text
 }
 
-/// Points without their z and faces, which must be triangles; all else is passed over.
+/// Points without their z and faces, which must be triangles; everything else is skipped.
 pub fn parse(text: &str) -> Result<Mesh, Complaint> {
     let mut mesh = Mesh::default();
     let mut words = Words::new(text, 1, true);
@@ -27,7 +27,7 @@ pub fn parse(text: &str) -> Result<Mesh, Complaint> {
             "f" => {
                 let corners: Vec<&str> = words.finish_line().collect();
                 let &[a, b, c] = corners.as_slice() else {
-                    return Err(words.complain(format!("a face of {} corners is no triangle", corners.len())));
+                    return Err(words.complain(format!("a face of {} corners is not a triangle", corners.len())));
                 };
                 let mut triangle = [0; 3];
                 for (slot, word) in triangle.iter_mut().zip([a, b, c]) {

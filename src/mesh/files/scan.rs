@@ -61,7 +61,7 @@ impl<'a> Words<'a> {
         line.split_ascii_whitespace()
     }
 
-    /// Passes over the rest of this line.
+    /// Skips the rest of this line.
     pub fn skip_line(&mut self) {
         self.rest = &self.rest[self.rest.find('\n').unwrap_or(self.rest.len())..];
     }
@@ -69,8 +69,8 @@ impl<'a> Words<'a> {
     /// The next word as a number; `what` names it in the complaint.
     pub fn number<T: FromStr>(&mut self, what: &str) -> Result<T, Complaint> {
         match self.next() {
-            Some(word) => parse(word).ok_or_else(|| self.complain(format!("`{word}` is no {what}"))),
-            None => Err(self.complain(format!("the file ends where a {what} should stand"))),
+            Some(word) => parse(word).ok_or_else(|| self.complain(format!("expected {what}, found `{word}`"))),
+            None => Err(self.complain(format!("expected {what}, but the file ends"))),
         }
     }
 
@@ -84,7 +84,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// The next word as the index of one of `count` things counted from `base`; gives it counted from 0.
+    /// The next word as the index of one of `count` things, counted from `base`; returned counted from 0.
     pub fn index(&mut self, what: &str, base: i64, count: usize) -> Result<u32, Complaint> {
         let index: i64 = self.number(what)?;
         let counted = index.checked_sub(base).and_then(|k| u32::try_from(k).ok());
@@ -102,7 +102,7 @@ impl<'a> Words<'a> {
     }
 }
 
-/// A number where the word is one.
+/// The word as a number, if it is one.
 pub fn parse<T: FromStr>(word: &str) -> Option<T> {
     word.parse().ok()
 }

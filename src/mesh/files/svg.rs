@@ -1,4 +1,4 @@
-//! `.svg`: a drawing of edges and, thicker, of the input's segments; for a look, not for reading back.
+//! `.svg`: a drawing of the edges and, thicker, of the input's segments; to look at, not to read back.
 
 use crate::geometry::Rect;
 use crate::mesh::Mesh;
@@ -7,7 +7,7 @@ use std::fmt::Write;
 /// The longer side of the drawing, in user units.
 const SIZE: f64 = 1000.0;
 
-/// Every edge once, each a move and a line.
+/// Draws every edge once, as a move and a line.
 pub fn text(mesh: &Mesh) -> String {
     let frame = Rect::around(mesh.points.iter().copied());
     let extent = if mesh.points.is_empty() {

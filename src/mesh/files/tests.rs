@@ -75,7 +75,7 @@ fn obj_keeps_geometry() {
 fn msh_keeps_geometry_and_regions() {
     let mesh = round_trip("m.msh");
     assert_eq!(mesh.points, sample().points);
-    // Gmsh keeps elements by entity: triangles come back by growing region.
+    // Gmsh keeps elements by entity: triangles come back in the order of their regions.
     assert_eq!(mesh.triangles, [[0, 4, 3], [0, 1, 2], [0, 2, 3]]);
     assert_eq!(mesh.regions, [-1.0, 0.0, 2.5]);
 }
@@ -127,9 +127,9 @@ fn bad_files_are_told_by_line() {
         (
             "m.node",
             "2 2 0 0\n0 0 0\n1 1\n",
-            "m.node:4: the file ends where a coordinate should stand",
+            "m.node:4: expected coordinate, but the file ends",
         ),
-        ("m.node", "1 2 0 0\n0 x 0\n", "m.node:2: `x` is no coordinate"),
+        ("m.node", "1 2 0 0\n0 x 0\n", "m.node:2: expected coordinate, found `x`"),
         ("m.node", "1 2 0 0\n0 nan 0\n", "m.node:2: coordinate NaN is not finite"),
         (
             "m.node",
@@ -141,11 +141,11 @@ fn bad_files_are_told_by_line() {
             "1 3 0\n1 1 2 4 # no such vertex\n",
             "m.ele:2: there is no vertex 4",
         ),
-        ("m.ele", "1 2 0\n1 1 2\n", "m.ele:1: 2 nodes a triangle"),
+        ("m.ele", "1 2 0\n1 1 2\n", "m.ele:1: 2 nodes per triangle"),
         (
             "m.obj",
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n",
-            "m.obj:5: a face of 4 corners is no triangle",
+            "m.obj:5: a face of 4 corners is not a triangle",
         ),
         (
             "m.obj",
@@ -165,7 +165,7 @@ fn bad_files_are_told_by_line() {
         (
             "m.vtu",
             "<VTKFile/>\n",
-            "m.vtu:1: no data array in an element Points: no .vtu file",
+            "m.vtu:1: no data array in an element Points: not a .vtu file",
         ),
         (
             "m.vtu",
@@ -175,11 +175,11 @@ fn bad_files_are_told_by_line() {
         (
             "m.json",
             "{\n\"points\": 3}",
-            "m.json:2: no mesh: invalid type: integer `3`, expected a sequence at line 2 column 11",
+            "m.json:2: not a mesh: invalid type: integer `3`, expected a sequence at line 2 column 11",
         ),
     ] {
         let found = complaint(name, text);
-        // A missing data array has no line of its own; whichever comes first is told.
+        // A missing data array has no line of its own; whichever comes first is reported.
         assert!(
             found == expected || found.contains(expected),
             "{found}\nexpected {expected}"

@@ -5,7 +5,7 @@ use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use std::fmt::Write;
 
-/// One line a point: index from 0, coordinates, its value where there are values, marker.
+/// One line per point: index from 0, coordinates, its value where there are values, marker.
 pub fn node_text(mesh: &Mesh, values: Option<&[f64]>) -> String {
     let mut text = format!("{} 2 {} 1\n", mesh.points.len(), u8::from(values.is_some()));
     for (k, (p, marker)) in mesh.points.iter().zip(&mesh.point_markers).enumerate() {
@@ -15,7 +15,7 @@ pub fn node_text(mesh: &Mesh, values: Option<&[f64]>) -> String {
     text
 }
 
-/// One line a triangle: index from 0, corners, region.
+/// One line per triangle: index from 0, corners, region.
 pub fn ele_text(mesh: &Mesh) -> String {
     let mut text = format!("{} 3 1\n", mesh.triangles.len());
     for (k, ([a, b, c], region)) in mesh.triangles.iter().zip(&mesh.regions).enumerate() {
@@ -67,9 +67,9 @@ pub fn parse_node_with_values(text: &str) -> Result<(Mesh, i64, Vec<f64>), Compl
 pub fn parse_ele(text: &str, mesh: &mut Mesh, base: i64) -> Result<(), Complaint> {
     let mut words = Words::new(text, 1, true);
     let count: usize = words.number("number of triangles")?;
-    let nodes: usize = words.number("number of nodes a triangle")?;
+    let nodes: usize = words.number("number of nodes per triangle")?;
     if nodes < 3 {
-        return Err(words.complain(format!("{nodes} nodes a triangle")));
+        return Err(words.complain(format!("{nodes} nodes per triangle")));
     }
     let attributes: usize = words.finish_line().next().and_then(parse).unwrap_or(0);
     for _ in 0..count {

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 /// VTK's number for a triangle.
 const TRIANGLE: u8 = 5;
-/// Cells of dimension 0 and 1, which are passed over: vertex, poly-vertex, line, poly-line.
+/// Cells of dimension 0 and 1, which are skipped: vertex, poly-vertex, line, poly-line.
 const LOWER: [u8; 4] = [1, 2, 3, 4];
 
 /// The name of the array that carries a value for each point.
@@ -65,7 +65,7 @@ pub fn text(mesh: &Mesh, values: Option<&[f64]>) -> String {
     text
 }
 
-/// One data array, one item a line.
+/// One data array, one item per line.
 fn array<T>(
     text: &mut String,
     name: &str,
@@ -105,7 +105,7 @@ impl<'a> Array<'a> {
     }
 }
 
-/// Points without their z, and triangles; vertices and lines are passed over, other cells refused.
+/// Points without their z, and triangles; vertices and lines are skipped, other cells refused.
 pub fn parse(text: &str) -> Result<Mesh, Complaint> {
     let arrays = arrays(text);
     let find = |section: &str, name: &str| {
@@ -114,7 +114,7 @@ pub fn parse(text: &str) -> Result<Mesh, Complaint> {
             .find(|array| array.section == section && (name.is_empty() || array.name == name))
     };
     let need = |section: &str, name: &str| {
-        let message = || format!("no data array {name} in an element {section}: no .vtu file").replace("  ", " ");
+        let message = || format!("no data array {name} in an element {section}: not a .vtu file").replace("  ", " ");
         find(section, name).ok_or_else(|| Complaint {
             line: 1,
             message: message(),
@@ -153,7 +153,7 @@ pub fn parse(text: &str) -> Result<Mesh, Complaint> {
     Ok(mesh)
 }
 
-/// A value for each of `count` points: of the array [`VALUES`], or else of the first one besides the markers.
+/// A value for each of `count` points, from the array [`VALUES`] or else from the first one besides the markers.
 pub fn values(text: &str, count: usize) -> Result<Vec<f64>, Complaint> {
     let arrays = arrays(text);
     let mut of_points = arrays.iter().filter(|array| array.section == "PointData");
@@ -183,7 +183,7 @@ fn points(array: &Array) -> Result<Vec<DVec2>, Complaint> {
     Ok(points)
 }
 
-/// Reads all cells; `kept` tells for each whether it is a triangle.
+/// Reads all cells; for each, `kept` gets whether it is a triangle.
 fn triangles(
     mesh: &mut Mesh,
     kept: &mut Vec<bool>,
@@ -211,7 +211,9 @@ fn triangles(
                 connectivity.number::<u64>("point")?;
             }
         } else {
-            return Err(types.complain(format!("a cell of VTK type {kind} with {count} points is no triangle")));
+            return Err(types.complain(format!(
+                "a cell of VTK type {kind} with {count} points is not a triangle"
+            )));
         }
         kept.push(kind == TRIANGLE);
         peek = types.clone();

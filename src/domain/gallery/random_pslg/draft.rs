@@ -1,4 +1,4 @@
-//! A PSLG in the making, that takes a part only where it meets no other.
+//! A PSLG in the making, which accepts a part only if it meets no other.
 
 use crate::domain::{InputSegment, Pslg};
 use crate::geometry::DVec2;
@@ -7,7 +7,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-/// A PSLG and the numbers it is drawn by.
+/// A PSLG and the random numbers that draw it.
 pub(super) struct Draft {
     pub pslg: Pslg,
     random: Pcg64,
@@ -61,7 +61,7 @@ impl Draft {
         DVec2::from_angle(self.number(0.0, TAU))
     }
 
-    /// Takes the place of what was drawn so far.
+    /// Replaces what was drawn so far.
     pub fn start_with(&mut self, pslg: Pslg) {
         self.pslg = pslg;
     }

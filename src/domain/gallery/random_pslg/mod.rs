@@ -1,7 +1,8 @@
-//! Random PSLGs in kinds, each kind one way to be hard: `random-pslg:kind=fan,seed=7`.
+//! Random PSLGs in kinds, each of which is hard in one way: `random-pslg:kind=fan,seed=7`.
 //!
-//! Valid by construction, since a part is left out where it would meet another ([`draft::Draft`]). Where rounding breaks
-//! that after all, as in a domain moved far from the origin, another is drawn; [`discarded`] tells how many were thrown away.
+//! They are valid by construction, since a part that would meet another is left out ([`draft::Draft`]). If rounding makes one
+//! invalid all the same, as in a domain moved far from the origin, another is drawn; [`discarded`] returns how many were thrown
+//! away.
 
 mod details;
 mod draft;
@@ -72,10 +73,10 @@ pub(super) const KINDS: &[Kind] = &[
     ),
 ];
 
-/// Kinds before those that move another.
+/// Number of kinds before those that move another.
 const PLAIN_KINDS: usize = KINDS.len() - 3;
 
-/// Most draws for one domain: a kind that needs more is at fault, not the luck of the draw.
+/// Most draws for one domain: if a kind needs more, the kind is at fault and not bad luck.
 const MOST_DRAWS: usize = 1000;
 
 /// The PSLG of that kind and seed, and how many draws were thrown away before it.
