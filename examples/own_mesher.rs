@@ -1,7 +1,7 @@
 //! A mesher of one's own, judged by the certificate: `cargo run --release --example own_mesher` writes own_mesher.svg.
 //!
-//! It goes through the points of a fine grid and keeps each that is at least s away from all kept before. The Delaunay
-//! triangulation of the kept points is the mesh.
+//! It goes through the points of a fine grid and keeps each that is far enough from the boundary and from all kept before.
+//! The Delaunay triangulation of the kept points is the mesh.
 
 use biting::Case;
 use biting::delaunay::triangulate;
@@ -49,7 +49,11 @@ impl Greedy {
         for row in 0..=(extent.y / step) as usize {
             for column in 0..=(extent.x / step) as usize {
                 let x = bounds.min + step * DVec2::new(column as f64, row as f64);
-                if domain.contains(x) && points.iter().all(|kept| kept.distance(x) >= size(x)) {
+                let is_clear = domain
+                    .index()
+                    .nearest(x)
+                    .is_some_and(|(_, distance)| distance >= 0.6 * size(x));
+                if is_clear && domain.contains(x) && points.iter().all(|kept| kept.distance(x) >= size(x)) {
                     points.push(x);
                 }
             }
@@ -81,7 +85,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mesh = case.mesh(&mesher)?;
     let (statistics, certificate) = case.judge_of(&mesh, &mesher);
 
-    println!("{} triangles, smallest angle {:.2}°", statistics.triangles, statistics.min_angle_deg);
+    println!(
+        "{} triangles, smallest angle {:.2}°",
+        statistics.triangles, statistics.min_angle_deg
+    );
     for check in &certificate.checks {
         let kind = if check.applies { "guaranteed" } else { "measured" };
         let verdict = if check.holds { "holds" } else { "does not hold" };

@@ -1,10 +1,10 @@
 //! Meshes a polygon with a hole: `cargo run --release --example polygon` writes polygon.svg and polygon.vtu.
 
+use biting::Case;
 use biting::domain::{Domain, Pslg};
 use biting::geometry::DVec2;
 use biting::mesh::files;
 use biting::meshers::biting::Biting;
-use biting::Case;
 use biting::theory::{Promises, Rule};
 use std::error::Error;
 use std::path::Path;
@@ -28,7 +28,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "smallest angle {:.2}°, at least {:.2}° was promised",
         statistics.min_angle_deg,
-        Promises { rule: Rule::Earlier, t: case.t() }.min_angle_deg()
+        Promises {
+            rule: Rule::Earlier,
+            t: case.t()
+        }
+        .min_angle_deg()
     );
     println!("every guaranteed check holds: {}", certificate.holds);
     for name in ["polygon.svg", "polygon.vtu"] {

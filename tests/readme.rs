@@ -100,6 +100,24 @@ fn commands_run_as_written() {
     });
 }
 
+/// The lines of the first block of `text` between a fence that begins with `open` and its end.
+fn block(text: &str, open: &str) -> Vec<String> {
+    let lines = text.lines().skip_while(|line| *line != open).skip(1);
+    lines.take_while(|line| *line != "```").map(str::to_owned).collect()
+}
+
+#[test]
+fn the_readme_has_the_example_of_the_crate_page() {
+    let read = |name: &str| fs::read_to_string(root().join(name)).expect("a file");
+    let page = read("src/lib.rs");
+    let docs = page.lines().map_while(|line| line.strip_prefix("//!"));
+    let docs: Vec<&str> = docs.map(|line| line.strip_prefix(' ').unwrap_or(line)).collect();
+    let mut tested = block(&docs.join("\n"), "```");
+    tested.retain(|line| !line.starts_with("# "));
+    assert!(tested.len() >= 8, "{tested:?}");
+    assert_eq!(block(&read("README.md"), "```rust"), tested);
+}
+
 #[test]
 fn the_readme_is_short() {
     let readme = fs::read_to_string(root().join("README.md")).expect("README.md");
