@@ -2,10 +2,8 @@
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::spacing::{Background, Spacing};
+use crate::spacing::Spacing;
 use crate::theory::{Guarantee, Rule};
-use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 pub mod advancing_front;
@@ -44,13 +42,18 @@ pub struct Entry {
 impl Entry {
     /// All parameters: those given, and the defaults of the rest.
     pub fn complete(&self, given: &Parameters) -> Parameters {
-        let defaults = self.parameters.iter();
-        let mut all: Parameters = defaults
-            .map(|parameter| (parameter.name.to_owned(), parameter_value(parameter.default)))
-            .collect();
-        all.extend(given.clone());
-        all
+        complete(self.parameters, given)
     }
+}
+
+/// The parameters given, and the defaults of the others that there are.
+pub(crate) fn complete(parameters: &[Parameter], given: &Parameters) -> Parameters {
+    let mut all: Parameters = parameters
+        .iter()
+        .map(|parameter| (parameter.name.to_owned(), parameter_value(parameter.default)))
+        .collect();
+    all.extend(given.clone());
+    all
 }
 
 /// A parameter's value as it is written on a command line: as JSON where it is some, else as text.
@@ -78,14 +81,9 @@ pub static MESHERS: &[Entry] = &[
     delaunay_refinement::ENTRY,
 ];
 
-/// The mesher of ours called `name`.
+/// The mesher called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {
-    find_in(MESHERS, name)
-}
-
-/// The one called `name` of a list.
-pub(crate) fn find_in(list: &'static [Entry], name: &str) -> Option<&'static Entry> {
-    list.iter().find(|entry| entry.name == name)
+    MESHERS.iter().find(|entry| entry.name == name)
 }
 
 /// Names the first parameter out of its range, of some with their values, least and most.
@@ -111,16 +109,16 @@ fn from_parameters<M: Mesher + serde::de::DeserializeOwned + 'static>(
 
 /// Refuses a spacing whose Lipschitz constant is by distances inside the domain, for a method that counts on it across the
 /// outside too.
-pub(crate) fn refuse_geodesic(spacing: &dyn Spacing) -> Result<(), MeshError> {
-    if !spacing.is_geodesic() {
-        return Ok(());
+fn refuse_geodesic(spacing: &dyn Spacing) -> Result<(), MeshError> {
+    match spacing.is_geodesic() {
+        true => Err(MeshError::Declined(NOT_GEODESIC.into())),
+        false => Ok(()),
     }
-    Err(MeshError::Declined(
-        "this method takes sizes on both sides of an outside gap for similar, and lfs:geodesic does not keep them so; use \
-         lfs as spacing, or the mesher biting or delaunay-refinement"
-            .into(),
-    ))
 }
+
+/// Why such a method declines such a spacing.
+pub(crate) const NOT_GEODESIC: &str = "this method takes sizes on both sides of an outside gap for similar, and lfs:geodesic \
+    does not keep them so; use lfs as spacing, or the mesher biting or delaunay-refinement";
 
 /// What is asked of a mesher besides domain and spacing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -191,12 +189,6 @@ pub enum MeshError {
     /// The method cannot take this input, and why.
     #[error("declined: {0}")]
     Declined(String),
-    /// A mesher outside this crate is not installed, and how to install it.
-    #[error("{0}")]
-    Missing(String),
-    /// A mesher outside this crate failed, and what it said.
-    #[error("{0}")]
-    Outside(String),
     /// The points could not be triangulated.
     #[error(transparent)]
     Triangulation(#[from] crate::delaunay::TriangulationError),
@@ -209,30 +201,8 @@ pub struct Trace {
     pub steps: Vec<(&'static str, Duration)>,
     /// Counts a mesher reports beside its mesh, such as bites or forced pieces.
     pub counts: Vec<(&'static str, f64)>,
-    /// What a mesher outside this crate told of its run: its own clock counts, not ours.
-    pub outside: Option<Outside>,
-    /// The spacing on a background mesh, from an earlier run on the same domain and spacing or for the next one: a mesher
-    /// that needs it makes it where it is not there.
-    pub background: Option<Arc<Background>>,
     /// Every bite in order, for figures and replays: noted only where there is a list, as [`Trace::watching`] makes it.
     pub bites: Option<Vec<Bite>>,
-}
-
-/// A run in a process of its own, as the program tells it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outside {
-    /// Of the program or library that made the mesh.
-    pub version: String,
-    /// From domain and size function in its memory to the mesh in its memory.
-    pub seconds: f64,
-    /// Seconds of what came before, by name: imports, reading, setting up the size function.
-    pub set_up: BTreeMap<String, f64>,
-    /// Resident memory just before meshing.
-    pub rss_before_bytes: u64,
-    /// Peak resident memory of the process.
-    pub peak_rss_bytes: u64,
-    /// Numbers it reports of itself.
-    pub counts: BTreeMap<String, f64>,
 }
 
 impl Trace {

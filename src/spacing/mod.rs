@@ -17,7 +17,6 @@ use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
 use std::sync::Arc;
 
-mod background;
 mod combine;
 pub(crate) mod cover;
 mod error;
@@ -32,7 +31,6 @@ mod spec;
 pub(crate) mod testing;
 mod uniform;
 
-pub use background::Background;
 pub use combine::{Min, Scaled};
 pub use error::SpacingError;
 pub use expression::Expression;

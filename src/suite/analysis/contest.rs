@@ -5,7 +5,7 @@
 
 use crate::meshers::{MESHERS, Parameters};
 use crate::suite::analysis::summary::{measured, specs_by_title};
-use crate::suite::peers::{self, PEERS};
+use crate::suite::peers::{AnyEntry, PEERS};
 use crate::suite::rows::numbers::{distinct, median};
 use crate::suite::rows::record::parameter_text;
 use crate::suite::rows::record::{Cell, Outcome, Report, Row};
@@ -29,7 +29,7 @@ impl Method {
     /// The method of a row.
     pub fn of(row: &Row) -> Self {
         let mesher = &row.cell.mesher;
-        let defaults = peers::find(mesher).map(|entry| entry.complete(&Parameters::new()));
+        let defaults = AnyEntry::find(mesher).map(|entry| entry.complete(&Parameters::new()));
         let defaults = defaults.unwrap_or_default();
         let all = complete(&row.cell);
         let differing = all.iter().filter(|(name, value)| defaults.get(*name) != Some(value));
@@ -37,10 +37,8 @@ impl Method {
             .map(|(name, value)| format!("{name}={}", parameter_text(value)))
             .collect();
         Self {
-            place: MESHERS
-                .iter()
-                .chain(PEERS)
-                .position(|entry| entry.name == *mesher)
+            place: AnyEntry::all()
+                .position(|entry| entry.name() == *mesher)
                 .unwrap_or(MESHERS.len() + PEERS.len()),
             label: std::iter::once(mesher.clone())
                 .chain(differing.iter().cloned())

@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             let prepared = store.prepare_for_t(&cell).map_err(Failure::input)?;
             let case = prepared.case(c_b);
             match &arguments.mesher {
-                Some(_) => case.judge_of(&mesh, &*runner::mesher(&cell).map_err(Failure::Input)?),
+                Some(_) => runner::mesher(&cell).map_err(Failure::Input)?.judge(&case, &mesh),
                 None => case.judge(&mesh),
             }
         }

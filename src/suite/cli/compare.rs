@@ -1,4 +1,4 @@
-//! `compare`: our meshers beside those outside this crate.
+//! `compare`: our meshers beside peers.
 //!
 //! An experiment like any other, with peers among its methods; see [`crate::suite::peers`].
 
@@ -6,7 +6,7 @@ use super::exit::{Failure, Outcome};
 use super::output::{say, say_aside};
 use super::sweep::{How, Place, run_cells};
 use crate::meshers::MESHERS;
-use crate::suite::peers::{self, PEERS, install};
+use crate::suite::peers::{AnyEntry, PEERS, install};
 
 /// The plan that is run where none is named.
 const DEFAULT: &str = "compare";
@@ -29,7 +29,7 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Outcome {
-    if let Some(unknown) = arguments.only.iter().find(|name| peers::find(name).is_none()) {
+    if let Some(unknown) = arguments.only.iter().find(|name| AnyEntry::find(name).is_none()) {
         return Err(Failure::Input(format!(
             "there is no mesher `{unknown}`; `biting list` shows them"
         )));

@@ -5,7 +5,7 @@ use super::output::say;
 use crate::domain::gallery;
 use crate::meshers::{Entry, MESHERS, Parameters};
 use crate::spacing;
-use crate::suite::peers::{PEERS, install};
+use crate::suite::peers::{AnyEntry, PEERS, install};
 use crate::suite::run::plan::Plan;
 use crate::theory::Guarantee;
 use std::path::{Path, PathBuf};
@@ -34,12 +34,12 @@ pub fn run() -> Outcome {
     }
     say("  FILE.poly, FILE.geojson\n\nMeshers");
     for entry in MESHERS {
-        say_entry(entry);
+        say_entry(AnyEntry::Ours(entry));
         say(format_args!("    guarantees by default {}", guarantees(entry)));
     }
     say("\nMeshers outside this crate");
     for entry in PEERS {
-        say_entry(entry);
+        say_entry(AnyEntry::Peer(entry));
         match install::command(entry.name) {
             Ok(_) => say("    installed"),
             Err(reason) => say(format_args!("    {reason}")),
@@ -63,9 +63,9 @@ pub fn run() -> Outcome {
 }
 
 /// A mesher with its parameters.
-fn say_entry(entry: &Entry) {
-    say(format_args!("  {:<16} {}", entry.name, entry.summary));
-    for parameter in entry.parameters {
+fn say_entry(entry: AnyEntry) {
+    say(format_args!("  {:<16} {}", entry.name(), entry.summary()));
+    for parameter in entry.parameters() {
         say(format_args!(
             "    --param {}={}  {}",
             parameter.name, parameter.default, parameter.help

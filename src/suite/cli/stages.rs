@@ -3,8 +3,9 @@
 use super::budget;
 use super::exit::Failure;
 use crate::domain::Domain;
-use crate::meshers::{Budget, MeshError, Mesher, Request};
+use crate::meshers::{Budget, Request};
 use crate::spacing;
+use crate::suite::peers::AnyMesher;
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{Cell, Report};
 use crate::suite::run::measure::{self, Run};
@@ -74,11 +75,7 @@ fn expected(integral: f64, c_b: f64) -> String {
 }
 
 /// Meshes, and tells what was to be expected where a budget ends that.
-pub fn mesh(
-    prepared: Prepared,
-    mesher: Box<dyn Mesher>,
-    request: Request,
-) -> Result<(Prepared, Box<dyn Mesher>, Run), Failure> {
+pub fn mesh(prepared: Prepared, mesher: AnyMesher, request: Request) -> Result<(Prepared, AnyMesher, Run), Failure> {
     let integral = prepared.integral.value;
     let expected = expected(integral, request.c_b);
     let place = prepared.site.lfs.narrowest();
@@ -92,12 +89,12 @@ pub fn mesh(
     }
     let told = || format!("meshing, in a step that does not place vertices; {place}; {expected}; raise the budget");
     let (prepared, mesher, run) = budget::within(&request.budget, PATIENCE, told, move || {
-        let run = measure::run(&prepared, &*mesher, &request);
+        let run = measure::run(&prepared, &mesher, &request);
         (prepared, mesher, run)
     })?;
     let run = run.map_err(|error| match error {
-        MeshError::Budget { .. } => Failure::Declined(format!("{error}; {place}; {expected}")),
-        MeshError::Declined(_) => Failure::Declined(error.to_string()),
+        _ if error.is_budget() => Failure::Declined(format!("{error}; {place}; {expected}")),
+        _ if error.is_declined() => Failure::Declined(error.to_string()),
         _ => Failure::input(error),
     })?;
     Ok((prepared, mesher, run))
@@ -105,7 +102,7 @@ pub fn mesh(
 
 /// Judges within the same budget.
 pub fn judge(
-    (prepared, mesher): (Prepared, Box<dyn Mesher>),
+    (prepared, mesher): (Prepared, AnyMesher),
     run: Run,
     cell: &Cell,
     budget: &Budget,
@@ -113,7 +110,7 @@ pub fn judge(
     let (triangles, place, cell) = (run.mesh.triangles.len(), prepared.site.lfs.narrowest(), cell.clone());
     let told = || format!("judging a finished mesh of {triangles} triangles; {place}; raise the budget");
     budget::within(budget, Duration::ZERO, told, move || {
-        let report = measure::judge(&prepared, &cell, &*mesher, &run, &machine::provenance());
+        let report = measure::judge(&prepared, &cell, &mesher, &run, &machine::provenance());
         (prepared, run, report)
     })
 }

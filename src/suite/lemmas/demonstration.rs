@@ -97,8 +97,8 @@ pub(super) fn report(cell: &Cell) -> Result<Report, String> {
         seed: cell.seed,
         ..Request::new(cell.c_b)
     };
-    let run = measure::run(&prepared, &*mesher, &request).map_err(|error| error.to_string())?;
-    Ok(measure::judge(&prepared, cell, &*mesher, &run, &machine::provenance()))
+    let run = measure::run(&prepared, &mesher, &request).map_err(|error| error.to_string())?;
+    Ok(measure::judge(&prepared, cell, &mesher, &run, &machine::provenance()))
 }
 
 /// Lemma 2.1's strip: a rectangle 2 high and 12 long, with f = 2 + dist(x, ∂Ω) held to lfs at its ends.

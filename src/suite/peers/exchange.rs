@@ -1,14 +1,14 @@
 //! The files of `baselines/PROTOCOL.md`: request, domain and field go out, mesh and answer come back.
 
+use super::PeerRun;
+use super::size_field::SizeField;
 use crate::domain::Domain;
-use crate::mesh::{self, Mesh};
-use crate::meshers::{Outside, Parameters, Request};
-use crate::spacing::Background;
+use crate::mesh;
+use crate::meshers::{Parameters, Request};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
-use std::sync::Arc;
 
 /// Version of the protocol.
 const PROTOCOL: u32 = 1;
@@ -40,10 +40,10 @@ enum Size<'a> {
     Field { field: &'a str, scale: f64 },
 }
 
-/// What a peer tells of its run.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+/// What a peer reports of its run.
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Answer {
+struct Answer {
     version: String,
     seconds: BTreeMap<String, f64>,
     rss_before_bytes: u64,
@@ -77,12 +77,12 @@ fn io_error(file: &'static str) -> impl FnOnce(io::Error) -> ExchangeError {
 }
 
 /// The size that a peer is asked for: c_b times this.
-#[derive(Clone, Debug)]
-pub enum Control {
+#[derive(Clone, Copy, Debug)]
+pub enum Control<'a> {
     /// f is the same everywhere.
     Uniform(f64),
-    /// f on a background mesh.
-    Field(Arc<Background>),
+    /// f varies.
+    Field(&'a SizeField),
 }
 
 /// Writes a request with its domain and, where there is a spacing f, f itself: the size is c_b f.
@@ -92,7 +92,7 @@ pub enum Control {
 pub fn write(
     folder: &Path,
     domain: &Domain,
-    spacing: Option<&Control>,
+    spacing: Option<Control>,
     request: &Request,
     parameters: &Parameters,
 ) -> Result<(), ExchangeError> {
@@ -128,33 +128,24 @@ pub fn write(
 ///
 /// # Errors
 /// [`ExchangeError`]: what is missing or not as the protocol says.
-pub fn read(folder: &Path) -> Result<(Mesh, Answer), ExchangeError> {
+pub fn read(folder: &Path) -> Result<PeerRun, ExchangeError> {
     let text = std::fs::read(folder.join(ANSWER)).map_err(io_error(ANSWER))?;
     let answer: Answer = serde_json::from_slice(&text).map_err(|cause| ExchangeError::Answer(cause.to_string()))?;
-    if !answer
-        .seconds
-        .get(MESHING)
-        .is_some_and(|seconds| seconds.is_finite() && *seconds >= 0.0)
-    {
+    let mut set_up = answer.seconds;
+    let seconds = set_up.remove(MESHING);
+    let Some(seconds) = seconds.filter(|seconds| seconds.is_finite() && *seconds >= 0.0) else {
         return Err(ExchangeError::Answer(format!("no seconds of `{MESHING}`")));
-    }
-    Ok((mesh::files::read(&folder.join(format!("{MESH}.node")))?, answer))
+    };
+    Ok(PeerRun {
+        mesh: mesh::files::read(&folder.join(format!("{MESH}.node")))?,
+        version: answer.version,
+        seconds,
+        set_up,
+        rss_before_bytes: answer.rss_before_bytes,
+        peak_rss_bytes: answer.peak_rss_bytes,
+        counts: answer.counts,
+    })
 }
 
 /// The part of a peer's seconds that is compared.
 const MESHING: &str = "mesh";
-
-impl From<Answer> for Outside {
-    fn from(answer: Answer) -> Self {
-        let mut set_up = answer.seconds;
-        let seconds = set_up.remove(MESHING).unwrap_or_default();
-        Self {
-            version: answer.version,
-            seconds,
-            set_up,
-            rss_before_bytes: answer.rss_before_bytes,
-            peak_rss_bytes: answer.peak_rss_bytes,
-            counts: answer.counts,
-        }
-    }
-}

@@ -1,23 +1,31 @@
 //! Every peer there is: name of its folder under `baselines/`, what it is, its parameters.
 
-use super::{Peer, SIZE};
-use crate::meshers::{Entry, Mesher, Parameter, Parameters, find_in};
+use super::SIZE;
+use crate::meshers::Parameter;
+
+/// One peer of the list.
+pub struct PeerEntry {
+    /// Name on the command line and in rows, and of its folder under `baselines/`.
+    pub name: &'static str,
+    /// One line for `list`.
+    pub summary: &'static str,
+    /// Its parameters.
+    pub parameters: &'static [Parameter],
+}
 
 /// Every peer. Its README under `baselines/` says how it is run and under which licence it comes.
-pub static PEERS: &[Entry] = &[
-    Entry {
+pub static PEERS: &[PeerEntry] = &[
+    PeerEntry {
         name: "triangle",
         summary: "Triangle 1.6: Delaunay refinement with off-centres (Shewchuk 1996; Üngör 2004)",
         parameters: &[ANGLE, PASSES, SIZE],
-        make: |given| peer("triangle", given),
     },
-    Entry {
+    PeerEntry {
         name: "meshpy",
         summary: "Triangle by way of MeshPy, the size function as a callback",
         parameters: &[ANGLE, SIZE],
-        make: |given| peer("meshpy", given),
     },
-    Entry {
+    PeerEntry {
         name: "gmsh",
         summary: "Gmsh's four 2D algorithms, the size function as a callback",
         parameters: &[Parameter {
@@ -26,9 +34,8 @@ pub static PEERS: &[Entry] = &[
             default: "frontal-delaunay",
             help: "which of Gmsh's algorithms",
         }],
-        make: |given| peer("gmsh", given),
     },
-    Entry {
+    PeerEntry {
         name: "cgal",
         summary: "CGAL Mesh_2: Delaunay refinement with a criterion of its own for the size",
         parameters: &[
@@ -46,9 +53,8 @@ pub static PEERS: &[Entry] = &[
             },
             SIZE,
         ],
-        make: |given| peer("cgal", given),
     },
-    Entry {
+    PeerEntry {
         name: "netgen",
         summary: "Netgen: advancing front with rules, then smoothing and swaps",
         parameters: &[
@@ -71,9 +77,8 @@ pub static PEERS: &[Entry] = &[
                 help: "how fast the size may grow away from where it is restricted",
             },
         ],
-        make: |given| peer("netgen", given),
     },
-    Entry {
+    PeerEntry {
         name: "mmg",
         summary: "mmg2d: local remeshing to an isotropic metric",
         parameters: &[Parameter {
@@ -82,9 +87,8 @@ pub static PEERS: &[Entry] = &[
             default: "5",
             help: "runs, the metric taken anew on the mesh of the one before",
         }],
-        make: |given| peer("mmg", given),
     },
-    Entry {
+    PeerEntry {
         name: "pymeshlab",
         summary: "MeshLab: isotropic explicit remeshing of the flat triangulated domain",
         parameters: &[Parameter {
@@ -93,9 +97,8 @@ pub static PEERS: &[Entry] = &[
             default: "10",
             help: "rounds of split, collapse, flip and smooth",
         }],
-        make: |given| peer("pymeshlab", given),
     },
-    Entry {
+    PeerEntry {
         name: "bamg",
         summary: "BAMG in FreeFEM: Delaunay remeshing to an isotropic metric",
         parameters: &[Parameter {
@@ -104,19 +107,16 @@ pub static PEERS: &[Entry] = &[
             default: "6",
             help: "calls of adaptmesh, the metric taken anew on the mesh of the one before",
         }],
-        make: |given| peer("bamg", given),
     },
-    Entry {
+    PeerEntry {
         name: "spade",
         summary: "spade's own Delaunay refinement",
         parameters: &[ANGLE, SIZE],
-        make: |given| peer("spade", given),
     },
-    Entry {
+    PeerEntry {
         name: "tritet",
         summary: "Triangle from Rust by way of tritet, uniform sizes only",
         parameters: &[ANGLE, SIZE],
-        make: |given| peer("tritet", given),
     },
 ];
 
@@ -134,26 +134,19 @@ const PASSES: Parameter = Parameter {
     help: "most rounds of refinement for a size that varies",
 };
 
-fn peer(name: &str, given: &Parameters) -> Result<Box<dyn Mesher>, String> {
-    let entry = find_in(PEERS, name).ok_or_else(|| format!("there is no peer `{name}`"))?;
-    Ok(Box::new(Peer::new(entry, given)?))
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::Peer;
     use super::*;
-    use crate::meshers::MESHERS;
+    use crate::meshers::{MESHERS, Parameters};
 
     #[test]
     fn every_peer_makes_itself_and_has_a_name_of_its_own() {
         for (place, entry) in PEERS.iter().enumerate() {
-            assert!((entry.make)(&Parameters::new()).is_ok(), "{}", entry.name);
-            let others = MESHERS.iter().chain(&PEERS[..place]);
-            assert!(
-                others.into_iter().all(|other| other.name != entry.name),
-                "{}",
-                entry.name
-            );
+            assert!(Peer::new(entry, &Parameters::new()).is_ok(), "{}", entry.name);
+            let others = MESHERS.iter().map(|mesher| mesher.name);
+            let mut others = others.chain(PEERS[..place].iter().map(|peer| peer.name));
+            assert!(others.all(|other| other != entry.name), "{}", entry.name);
             let folder = std::path::Path::new(super::super::install::BASELINES).join(entry.name);
             assert!(
                 folder.join("README.md").is_file(),
@@ -165,12 +158,11 @@ mod tests {
 
     #[test]
     fn a_parameter_that_is_not_there_is_refused() {
-        let given = Parameters::from_iter([("angel".to_owned(), 30.into())]);
-        assert_eq!(
-            peer("triangle", &given).err().as_deref(),
-            Some("there is no parameter `angel`")
-        );
-        let given = Parameters::from_iter([("size".to_owned(), "some".into())]);
-        assert!(peer("triangle", &given).err().is_some_and(|told| told.contains("size")));
+        let refused = |name: &str, value: serde_json::Value| {
+            let given = Parameters::from_iter([(name.to_owned(), value)]);
+            Peer::new(&PEERS[0], &given).expect_err("refused")
+        };
+        assert_eq!(refused("angel", 30.into()), "there is no parameter `angel`");
+        assert!(refused("size", "some".into()).contains("size"));
     }
 }

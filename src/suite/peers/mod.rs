@@ -1,25 +1,31 @@
-//! Meshers outside this crate, behind a process boundary: the list [`PEERS`], and how one is run.
+//! Peers: meshers of others that people use, behind a process boundary. The list [`PEERS`], and how one is run.
 //!
-//! Processes, their groups and their memory are those of Unix; memory is told by Linux alone.
+//! Processes, their groups and their memory are those of Unix; only Linux reports memory.
 //!
-//! A peer is a [`Mesher`] like any other to whoever runs it, and its mesh is judged like any other. What passes between it
-//! and this crate, and what a folder under `baselines/` must hold, is in `baselines/PROTOCOL.md`: [`exchange`] writes and
-//! reads the files, [`process`] starts the program and ends it at its limits, [`install`] knows which are there.
+//! A peer is no [`Mesher`](crate::meshers::Mesher): it runs elsewhere and reports its own times. [`AnyMesher`] is a mesher of
+//! ours or a peer, to whoever runs both. What passes between a peer and this crate, and what a folder under `baselines/` must
+//! hold, is in `baselines/PROTOCOL.md`: [`exchange`] writes and reads the files, [`size_field`] is the size function in one of
+//! them, [`process`] starts the program and ends it at its limits, [`install`] knows which are there.
 
+mod any;
 pub mod exchange;
 pub mod install;
 mod list;
 pub mod process;
+pub mod size_field;
 
-pub use list::PEERS;
+pub use any::{AnyEntry, AnyMesher, RunError};
+pub use list::{PEERS, PeerEntry};
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
-use crate::meshers::{self, Entry, MeshError, Mesher, Parameter, Parameters, Request, Trace};
-use crate::spacing::{Background, Spacing};
+use crate::meshers::{NOT_GEODESIC, Parameter, Parameters, Request, complete};
+use crate::spacing::Spacing;
 use exchange::Control;
+use size_field::SizeField;
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 /// Parameter of the peers that can do without a size: whether they get one.
@@ -30,8 +36,8 @@ pub const SIZE: Parameter = Parameter {
     help: "ask for edges of c_b f, or for no size, so that angles alone decide",
 };
 
-/// The largest share by which the size function that peers get differs from the one ours get, at the points where the
-/// background mesh is held against it.
+/// The largest share by which the size function that peers get differs from the one ours get, at the points where the two are
+/// compared.
 pub const FIELD_ERROR: f64 = 0.01;
 
 /// What a peer may take beside the seconds it may mesh: interpreter, imports, files.
@@ -39,16 +45,6 @@ const SET_UP: Duration = Duration::from_secs(60);
 
 /// Memory of a peer's process group where the request has no limit, bytes.
 const MEMORY: u64 = 8_000_000_000;
-
-/// The mesher called `name`: one of ours, or a peer.
-pub fn find(name: &str) -> Option<&'static Entry> {
-    meshers::find(name).or_else(|| PEERS.iter().find(|entry| entry.name == name))
-}
-
-/// Whether `name` is a peer's.
-pub fn is_peer(name: &str) -> bool {
-    PEERS.iter().any(|entry| entry.name == name)
-}
 
 /// A peer with its parameters.
 #[derive(Clone, Debug)]
@@ -63,12 +59,12 @@ impl Peer {
     ///
     /// # Errors
     /// A parameter that the entry does not have, or a size that is neither of [`SIZE`]'s.
-    fn new(entry: &Entry, given: &Parameters) -> Result<Self, String> {
+    fn new(entry: &PeerEntry, given: &Parameters) -> Result<Self, String> {
         let known = |name: &str| entry.parameters.iter().any(|parameter| parameter.name == name);
         if let Some(unknown) = given.keys().find(|name| !known(name)) {
             return Err(format!("there is no parameter `{unknown}`"));
         }
-        let parameters = entry.complete(given);
+        let parameters = complete(entry.parameters, given);
         match parameters.get(SIZE.name).map(|value| value.as_str()) {
             None | Some(Some("spacing" | "none")) => {}
             _ => return Err(format!("{} must be one of {}", SIZE.name, SIZE.values)),
@@ -85,57 +81,85 @@ impl Peer {
             .is_none_or(|value| value.as_str() != Some("none"))
     }
 
-    fn run(
+    /// Meshes `domain` with edges of about c_b f in a process of the peer's. `field` keeps f as peers get it for the next run
+    /// on the same domain and spacing.
+    ///
+    /// # Errors
+    /// [`PeerError`].
+    pub fn run(
+        &self,
+        domain: &Domain,
+        spacing: &dyn Spacing,
+        request: &Request,
+        field: &OnceLock<SizeField>,
+    ) -> Result<PeerRun, PeerError> {
+        if spacing.is_geodesic() {
+            return Err(PeerError::Declined(NOT_GEODESIC.into()));
+        }
+        let folder = tempfile::Builder::new().prefix("biting-peer-").tempdir();
+        let folder = folder.map_err(failed)?;
+        let control = self.has_size().then(|| match spacing.lipschitz() {
+            0.0 => Control::Uniform(spacing.at(domain.bounds().centre())),
+            _ => Control::Field(field.get_or_init(|| SizeField::of(spacing, domain, FIELD_ERROR))),
+        });
+        self.run_in(folder.path(), domain, control, request)
+    }
+
+    fn run_in(
         &self,
         folder: &Path,
         domain: &Domain,
-        spacing: Option<&Control>,
+        control: Option<Control>,
         request: &Request,
-    ) -> Result<(Mesh, exchange::Answer), MeshError> {
-        let command = install::command(self.name).map_err(MeshError::Missing)?;
-        exchange::write(folder, domain, spacing, request, &self.parameters).map_err(failed)?;
+    ) -> Result<PeerRun, PeerError> {
+        let command = install::command(self.name).map_err(PeerError::Missing)?;
+        exchange::write(folder, domain, control, request, &self.parameters).map_err(failed)?;
         let limits = process::Limits {
             time: Duration::from_secs_f64(request.budget.max_seconds.unwrap_or(3600.0)) + SET_UP,
             bytes: request.budget.max_memory.unwrap_or(MEMORY),
         };
         match process::run(&command, folder, request.threads, limits).map_err(failed)? {
             process::Ending::Done => exchange::read(folder).map_err(failed),
-            process::Ending::Declined(reason) => Err(MeshError::Declined(reason)),
-            process::Ending::Failed(reason) => Err(MeshError::Outside(reason)),
-            process::Ending::Stopped(limit) => Err(MeshError::Outside(format!("{limit}; its processes were ended"))),
+            process::Ending::Declined(reason) => Err(PeerError::Declined(reason)),
+            process::Ending::Failed(reason) => Err(PeerError::Failed(reason)),
+            process::Ending::Stopped(limit) => Err(PeerError::Failed(format!("{limit}; its processes were ended"))),
         }
     }
 }
 
-/// A spacing as peers get it, on the background mesh of an earlier run where there is one.
-fn control(domain: &Domain, spacing: &dyn Spacing, trace: &mut Trace) -> Control {
-    if spacing.lipschitz() == 0.0 {
-        return Control::Uniform(spacing.at(domain.bounds().centre()));
-    }
-    let sample = || Arc::new(Background::of(spacing, domain, FIELD_ERROR));
-    Control::Field(trace.background.get_or_insert_with(sample).clone())
+/// The mesh of a peer, and what the peer reports of its run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PeerRun {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Of the program or library that made it.
+    pub version: String,
+    /// From domain and size function in its memory to the mesh in its memory.
+    pub seconds: f64,
+    /// Seconds of what came before, by name: imports, reading, setting up the size function.
+    pub set_up: BTreeMap<String, f64>,
+    /// Resident memory just before meshing.
+    pub rss_before_bytes: u64,
+    /// Peak resident memory of the process.
+    pub peak_rss_bytes: u64,
+    /// Numbers it reports of itself.
+    pub counts: BTreeMap<String, f64>,
 }
 
-fn failed(cause: impl std::fmt::Display) -> MeshError {
-    MeshError::Outside(cause.to_string())
+/// Why a peer made no mesh.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PeerError {
+    /// It is not installed, and how to install it.
+    #[error("{0}")]
+    Missing(String),
+    /// It cannot take this input, and why.
+    #[error("declined: {0}")]
+    Declined(String),
+    /// It failed or was ended, and the last it said.
+    #[error("{0}")]
+    Failed(String),
 }
 
-impl Mesher for Peer {
-    fn mesh(
-        &self,
-        domain: &Domain,
-        spacing: &dyn Spacing,
-        request: &Request,
-        trace: &mut Trace,
-    ) -> Result<Mesh, MeshError> {
-        crate::meshers::refuse_geodesic(spacing)?;
-        let folder = tempfile::Builder::new()
-            .prefix("biting-peer-")
-            .tempdir()
-            .map_err(failed)?;
-        let control = self.has_size().then(|| control(domain, spacing, trace));
-        let (mesh, answer) = self.run(folder.path(), domain, control.as_ref(), request)?;
-        trace.outside = Some(answer.into());
-        Ok(mesh)
-    }
+fn failed(cause: impl std::fmt::Display) -> PeerError {
+    PeerError::Failed(cause.to_string())
 }

@@ -22,6 +22,7 @@ pub use record::{About, Bites, Frame, Outline, Queue, Recording};
 
 use crate::files::write_whole;
 use crate::meshers::{Budget, MeshError, Request, Trace};
+use crate::suite::peers::AnyMesher;
 use crate::suite::rows::record::Cell;
 use crate::suite::run::prepare::Store;
 use crate::suite::run::runner;
@@ -70,7 +71,9 @@ pub fn write(folder: &Path, cell: &Cell) -> Result<PathBuf, ReplayError> {
 /// Bites as `cell` asks, and records it.
 fn recording(cell: &Cell) -> Result<Recording, ReplayError> {
     let input = |error: &dyn std::fmt::Display| ReplayError::Input(error.to_string());
-    let mesher = runner::mesher(cell).map_err(ReplayError::Input)?;
+    let AnyMesher::Ours(mesher) = runner::mesher(cell).map_err(ReplayError::Input)? else {
+        return Err(ReplayError::Input(record::no_bites(cell)));
+    };
     if mesher.rule() == Rule::Later {
         let told = "a replay draws circles that bite, and by rule=later points eat what is no circle; leave out rule";
         return Err(ReplayError::Input(told.into()));

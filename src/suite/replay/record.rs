@@ -128,7 +128,7 @@ pub struct Queue {
 pub(super) fn record(cell: &Cell, prepared: &Prepared, mesh: &Mesh, bites: &[Bite]) -> Result<Recording, String> {
     let domain = &*prepared.site.domain;
     if bites.is_empty() {
-        return Err(format!("mesher `{}` tells of no bites to replay", cell.mesher));
+        return Err(no_bites(cell));
     }
     let frame = Frame::around(domain.bounds().min, domain.bounds().size());
     let is_cut = outline::cut_vertices(domain, bites);
@@ -153,6 +153,11 @@ pub(super) fn record(cell: &Cell, prepared: &Prepared, mesh: &Mesh, bites: &[Bit
         frame,
         queue,
     })
+}
+
+/// That a mesher does not bite, in words.
+pub(super) fn no_bites(cell: &Cell) -> String {
+    format!("mesher `{}` has no bites to replay", cell.mesher)
 }
 
 fn about(cell: &Cell, prepared: &Prepared, mesh: &Mesh) -> About {

@@ -154,6 +154,6 @@ pub(super) fn made_again(store: &Store, row: &Row, report: &Report) -> Option<Me
             ..Budget::default()
         },
     };
-    let mesh = run(&prepared, &*mesher, &request).ok()?.mesh;
+    let mesh = run(&prepared, &mesher, &request).ok()?.mesh;
     (fingerprint(&mesh) == report.fingerprint).then_some(mesh)
 }

@@ -6,13 +6,14 @@ use super::markdown::{degrees, number, table};
 use crate::suite::analysis::contest::{Contest, Method, at_equal_count, at_equal_size};
 use crate::suite::analysis::remarks::ours;
 use crate::suite::analysis::summary::measured;
-use crate::suite::peers::{self, PEERS};
+use crate::suite::peers::PEERS;
 use crate::suite::rows::numbers::{first_seen, median, quantile};
 use crate::suite::rows::record::{Outcome, Report, Row};
 
 /// Whether any row is of a mesher outside this crate.
 fn has_peers(rows: &[Row]) -> bool {
-    rows.iter().any(|row| peers::is_peer(&row.cell.mesher))
+    rows.iter()
+        .any(|row| PEERS.iter().any(|peer| peer.name == row.cell.mesher))
 }
 
 /// The part of the page.

@@ -177,11 +177,11 @@ fn in_earnest(domain: &str) -> Row {
         threads: 1,
         budget: Budget::default(),
     };
-    let run = measure::run(&prepared, &*mesher, &request).unwrap();
+    let run = measure::run(&prepared, &mesher, &request).unwrap();
     row.report = Some(measure::judge(
         &prepared,
         &row.cell,
-        &*mesher,
+        &mesher,
         &run,
         &Provenance::default(),
     ));

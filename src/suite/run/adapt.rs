@@ -27,7 +27,7 @@ use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::near::{Disc, DiscGrid};
 use crate::mesh::Mesh;
-use crate::meshers::{Budget, MeshError, Request, Trace};
+use crate::meshers::{Budget, Request};
 use crate::spacing::{Lfs, Min, NearestNeighbour, Nodal, Spacing, Tolerance, limit, recovered_eigenvalues};
 use crate::suite::fem::{self, Problem, Solution};
 use crate::suite::rows::adapted::{Adapt, Round};
@@ -161,10 +161,10 @@ impl Loop<'_> {
                 ..Budget::default()
             },
         };
-        let mesh = mesher.mesh(self.domain, spacing, &request, &mut Trace::default());
+        let mesh = mesher.mesh(self.domain, spacing, &request);
         mesh.map_err(|error| Ended {
             reason: error.to_string(),
-            is_budget: matches!(error, MeshError::Budget { .. }),
+            is_budget: error.is_budget(),
         })
     }
 

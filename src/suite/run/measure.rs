@@ -1,9 +1,9 @@
 //! One mesh and all that is known of it: what `mesh` and `sweep` share.
 
 use crate::mesh::Mesh;
-use crate::meshers::{MeshError, Mesher, Request, Trace, resident_bytes};
+use crate::meshers::{Mesher, Request, Trace, resident_bytes};
 use crate::suite::fem::{self, Problem, Solution};
-use crate::suite::peers;
+use crate::suite::peers::{AnyEntry, AnyMesher, PeerRun, RunError};
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{Cell, Outside, Provenance, Report, Seconds};
 use crate::suite::run::prepare::{Prepared, Site};
@@ -25,7 +25,7 @@ pub struct Run {
     pub rss_before_bytes: u64,
     /// Peak memory of the process by the end, bytes.
     pub peak_rss_bytes: u64,
-    /// What a mesher outside this crate told of its run.
+    /// What a peer reports of its run besides.
     pub outside: Option<Outside>,
 }
 
@@ -33,52 +33,67 @@ pub struct Run {
 ///
 /// # Errors
 /// The mesher's.
-pub fn run(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Result<Run, MeshError> {
-    let mut trace = Trace {
-        background: prepared.background.get().cloned(),
-        ..Trace::default()
-    };
+pub fn run(prepared: &Prepared, mesher: &AnyMesher, request: &Request) -> Result<Run, RunError> {
+    match mesher {
+        AnyMesher::Ours(mesher) => ours(prepared, &**mesher, request),
+        AnyMesher::Peer(peer) => {
+            let (domain, spacing) = (&prepared.site.domain, &*prepared.spacing.function);
+            Ok(Run::of_peer(peer.run(
+                domain,
+                spacing,
+                request,
+                &prepared.size_field,
+            )?))
+        }
+    }
+}
+
+fn ours(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Result<Run, RunError> {
+    let mut trace = Trace::default();
     let case = prepared.case(request.c_b);
     let rss_before_bytes = resident_bytes().unwrap_or(0);
     let start = Instant::now();
     let mesh = case.mesh_as(mesher, request, &mut trace)?;
     let total = start.elapsed().as_secs_f64();
-    if let Some(background) = trace.background.take() {
-        // Where another thread was first, its is the same.
-        let _ = prepared.background.set(background);
-    }
     let mut steps = Map::new();
     for (name, duration) in &trace.steps {
         let before = steps.get(*name).and_then(Value::as_f64).unwrap_or(0.0);
         steps.insert((*name).into(), Value::from(before + duration.as_secs_f64()));
     }
-    let mut run = Run {
+    let counts = trace.counts.into_iter();
+    Ok(Run {
         mesh,
         seconds: Seconds { total, steps },
-        counts: trace
-            .counts
-            .into_iter()
-            .map(|(name, value)| (name.to_owned(), value))
-            .collect(),
+        counts: counts.map(|(name, value)| (name.to_owned(), value)).collect(),
         rss_before_bytes,
         peak_rss_bytes: machine::peak_rss_bytes(),
         outside: None,
-    };
-    if let Some(told) = trace.outside {
-        run.seconds.total = told.seconds;
-        (run.rss_before_bytes, run.peak_rss_bytes) = (told.rss_before_bytes, told.peak_rss_bytes);
-        run.counts.extend(told.counts);
-        run.outside = Some(Outside {
-            version: told.version,
-            set_up_seconds: told.set_up,
-            repeats_differ: false,
-        });
+    })
+}
+
+impl Run {
+    /// Time and memory are what the peer reports: what we would measure has its process in it.
+    fn of_peer(run: PeerRun) -> Self {
+        Self {
+            mesh: run.mesh,
+            seconds: Seconds {
+                total: run.seconds,
+                steps: Map::new(),
+            },
+            counts: run.counts,
+            rss_before_bytes: run.rss_before_bytes,
+            peak_rss_bytes: run.peak_rss_bytes,
+            outside: Some(Outside {
+                version: run.version,
+                set_up_seconds: run.set_up,
+                repeats_differ: false,
+            }),
+        }
     }
-    Ok(run)
 }
 
 /// Everything about a mesh: statistics, certificate, and what made it.
-pub fn judge(prepared: &Prepared, cell: &Cell, mesher: &dyn Mesher, run: &Run, provenance: &Provenance) -> Report {
+pub fn judge(prepared: &Prepared, cell: &Cell, mesher: &AnyMesher, run: &Run, provenance: &Provenance) -> Report {
     let (site, c_b) = (&*prepared.site, cell.c_b);
     let case = prepared.case(c_b);
     let t_effective = case.t();
@@ -86,7 +101,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, mesher: &dyn Mesher, run: &Run, p
     let integral = prepared.integral.value;
     let size_ratio = triangles / integral;
     let (poisson, poisson_failed) = poisson(cell, site, run);
-    let (statistics, certificate) = case.judge_of(&run.mesh, mesher);
+    let (statistics, certificate) = mesher.judge(&case, &run.mesh);
     Report {
         domain: site.domain.name().into(),
         mesher: cell.mesher.clone(),
@@ -142,7 +157,7 @@ fn poisson(cell: &Cell, site: &Site, run: &Run) -> (Option<Solution>, Option<Str
 
 /// All parameters of a cell's mesher: those it names, and the defaults of the rest.
 pub fn complete(cell: &Cell) -> Map<String, Value> {
-    peers::find(&cell.mesher).map_or_else(|| cell.params.clone(), |entry| entry.complete(&cell.params))
+    AnyEntry::find(&cell.mesher).map_or_else(|| cell.params.clone(), |entry| entry.complete(&cell.params))
 }
 
 /// A hash of the mesh's points and triangles, bit by bit, in hexadecimal: FNV-1a of 64 bits over their words. Equal

@@ -2,7 +2,8 @@
 
 use crate::Case;
 use crate::domain::{self, Domain, DomainError, RepairReport};
-use crate::spacing::{self, Background, ControlSpacing, Integral, Lfs, Options, SpacingError};
+use crate::spacing::{self, ControlSpacing, Integral, Lfs, Options, SpacingError};
+use crate::suite::peers::size_field::SizeField;
 use crate::suite::rows::adapted::Round;
 use crate::suite::rows::record::Cell;
 use crate::suite::run::adapt::{self, Ended};
@@ -68,8 +69,8 @@ pub struct Prepared {
     pub integral: Integral,
     /// The rounds of adaptation by which the spacing came about.
     pub rounds: Arc<[Round]>,
-    /// The spacing on a background mesh, once a mesher has made one.
-    pub background: OnceLock<Arc<Background>>,
+    /// The spacing as peers get it, once one has asked for it.
+    pub size_field: Arc<OnceLock<SizeField>>,
 }
 
 impl Prepared {
@@ -218,7 +219,7 @@ impl Store {
             spacing: base.spacing.clone(),
             integral: base.integral,
             rounds: base.rounds.clone(),
-            background: OnceLock::new(),
+            size_field: Arc::default(),
         };
         let Some(alpha) = alpha else {
             return Ok(prepared);

@@ -4,9 +4,9 @@
 //! does not fall on one of them. Then cells that are only counted and measured run side by side, as far as their memory
 //! fits.
 
-use crate::meshers::{Budget, MeshError, Mesher, Request};
+use crate::meshers::{Budget, Request};
 use crate::spacing::estimate_triangles;
-use crate::suite::peers;
+use crate::suite::peers::{AnyEntry, AnyMesher, PeerError, RunError};
 use crate::suite::rows::journal::{Journal, JournalError, Line};
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{Cell, Outcome, Provenance, Report, Row};
@@ -189,13 +189,13 @@ impl Sweep<'_> {
         }
         let attempt = guarded(|| {
             let mesher = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
-            let tuned = self.first_mesh(planned, prepared, &*mesher, limit)?;
+            let tuned = self.first_mesh(planned, prepared, &mesher, limit)?;
             let (asked, run) = (planned.cell.scaled_to(tuned.c_b), tuned.value);
             let provenance = Provenance {
                 date: machine::now(),
                 ..self.provenance.clone()
             };
-            let mut report = measure::judge(prepared, &asked, &*mesher, &run, &provenance);
+            let mut report = measure::judge(prepared, &asked, &mesher, &run, &provenance);
             slim(&mut report);
             Ok((report, run.seconds.total, tuned.tries))
         });
@@ -222,7 +222,7 @@ impl Sweep<'_> {
         &self,
         planned: &PlannedCell,
         prepared: &Prepared,
-        mesher: &dyn Mesher,
+        mesher: &AnyMesher,
         limit: f64,
     ) -> Result<Tuned<Run>, (Outcome, String)> {
         let once = |c_b| self.mesh(planned, c_b, prepared, mesher, limit);
@@ -239,7 +239,7 @@ impl Sweep<'_> {
         let start = (estimate_triangles(prepared.integral.value, 1.0) / wanted as f64).sqrt();
         tune(wanted, start, |c_b| {
             let run = once(c_b).map_err(|error| NoMesh {
-                too_many: matches!(error, MeshError::Budget { .. }),
+                too_many: error.is_budget(),
                 error,
             })?;
             Ok((run.mesh.triangles.len() as u64, run))
@@ -256,7 +256,7 @@ impl Sweep<'_> {
         let attempt = guarded(|| {
             let prepared = prepared.map_err(|reason| (Outcome::Failed, reason.clone()))?;
             let mesher = mesher(&planned.cell).map_err(|reason| (Outcome::Failed, reason))?;
-            self.mesh(planned, c_b, prepared, &*mesher, limit).map_err(ended)
+            self.mesh(planned, c_b, prepared, &mesher, limit).map_err(ended)
         });
         let (run, mut report) = match (attempt, row.report) {
             (Ok(Ok(run)), Some(report)) => (run, report),
@@ -294,9 +294,9 @@ impl Sweep<'_> {
         planned: &PlannedCell,
         c_b: f64,
         prepared: &Prepared,
-        mesher: &dyn Mesher,
+        mesher: &AnyMesher,
         limit: f64,
-    ) -> Result<Run, MeshError> {
+    ) -> Result<Run, RunError> {
         let request = Request {
             c_b,
             seed: planned.cell.seed,
@@ -305,7 +305,7 @@ impl Sweep<'_> {
                 max_vertices: Some((VERTICES_PER_BUDGET_TRIANGLE * limit) as usize),
                 max_seconds: Some(planned.budget.seconds),
                 // Peers alone are held to it: what this process has besides is not the mesher's.
-                max_memory: peers::is_peer(&planned.cell.mesher).then_some(self.memory_bytes),
+                max_memory: matches!(mesher, AnyMesher::Peer(_)).then_some(self.memory_bytes),
             },
         };
         if planned.cell.timed {
@@ -351,14 +351,14 @@ impl Sweep<'_> {
 ///
 /// # Errors
 /// What is wrong with its name or parameters.
-pub fn mesher(cell: &Cell) -> Result<Box<dyn Mesher>, String> {
-    let entry = peers::find(&cell.mesher)
+pub fn mesher(cell: &Cell) -> Result<AnyMesher, String> {
+    let entry = AnyEntry::find(&cell.mesher)
         .ok_or_else(|| format!("there is no mesher `{}`; `biting list` shows them", cell.mesher))?;
-    let made = (entry.make)(&cell.params);
+    let made = entry.make(&cell.params);
     made.map_err(|error| format!("mesher `{}`: {error}; `biting list` shows them", cell.mesher))
 }
 
-/// Why the mesh of a mesher outside this crate is none of the domain; ours are held to their certificates as a whole, by
+/// Why the mesh of a peer is none of the domain; ours are held to their certificates as a whole, by
 /// what the plan expects.
 fn not_conforming(report: &Report) -> Option<String> {
     report.outside.as_ref()?;
@@ -367,10 +367,10 @@ fn not_conforming(report: &Report) -> Option<String> {
 }
 
 /// How a cell without a mesh ended, and why.
-fn ended(error: MeshError) -> (Outcome, String) {
+fn ended(error: RunError) -> (Outcome, String) {
     let outcome = match error {
-        MeshError::Budget { .. } | MeshError::Declined(_) => Outcome::Declined,
-        MeshError::Missing(_) => Outcome::Skipped,
+        RunError::Peer(PeerError::Missing(_)) => Outcome::Skipped,
+        _ if error.is_budget() || error.is_declined() => Outcome::Declined,
         _ => Outcome::Failed,
     };
     (outcome, error.to_string())

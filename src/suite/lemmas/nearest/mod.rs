@@ -18,7 +18,6 @@ use super::record::{Measured, Statement};
 use super::statements;
 use crate::Case;
 use crate::files::write_whole;
-use crate::meshers::Trace;
 use crate::quality::{self};
 use crate::suite::report::markdown::{number, table};
 use crate::suite::rows::record::{Cell, quoted};
@@ -140,8 +139,8 @@ fn worst(candidate: &Candidate, measured: &Measured, t: f64) -> Option<f64> {
     let mut request = case.request();
     request.seed = cell.seed;
     request.budget.max_vertices = Some(MOST_VERTICES);
-    let mesh = case.mesh_as(&*mesher, &request, &mut Trace::default()).ok()?;
-    let (_, certificate) = case.judge_of(&mesh, &*mesher);
+    let mesh = mesher.mesh(&case.domain, &*case.spacing.function, &request).ok()?;
+    let (_, certificate) = mesher.judge(&case, &mesh);
     quantity(&certificate, measured, cell.c_b, case.t())
 }
 

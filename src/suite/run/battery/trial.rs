@@ -1,7 +1,7 @@
 //! One case run and judged.
 
 use crate::domain::{self, gallery};
-use crate::meshers::{Budget, MeshError, Request, Trace};
+use crate::meshers::{Budget, Request};
 use crate::quality::{Certificate, Check};
 use crate::spacing::{SpacingError, estimate_triangles};
 use crate::suite::run::battery::family::Case;
@@ -110,12 +110,12 @@ fn attempt(trial: &Case) -> Result<Trial, NoMesh> {
         },
         ..case.request()
     };
-    let made = case.mesh_as(&*mesher, &request, &mut Trace::default());
+    let made = mesher.mesh(&case.domain, &*case.spacing.function, &request);
     let mesh = made.map_err(|error| match error {
-        MeshError::Budget { .. } => (Verdict::Stopped, error.to_string()),
+        _ if error.is_budget() => (Verdict::Stopped, error.to_string()),
         _ => declined(error.to_string()),
     })?;
-    let broken = broken(&case.judge_of(&mesh, &*mesher).1);
+    let broken = broken(&mesher.judge(&case, &mesh).1);
     Ok(Trial {
         verdict: if broken.is_none() {
             Verdict::Certified

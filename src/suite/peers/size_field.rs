@@ -1,8 +1,8 @@
-//! A spacing on a background mesh with nodal values (§2.3, end): a balanced quadtree whose leaves hold f at their corners.
+//! How peers get the size function: a balanced quadtree whose leaves hold f at their corners, in one file which all of them
+//! interpolate the same way (`baselines/PROTOCOL.md`).
 //!
 //! Inside a leaf the value is bilinear; a corner that hangs on the side of a larger leaf has the mean of that side's ends,
-//! so that the whole is continuous. This is how outside meshers get the size function: one file, which all of them
-//! interpolate the same way (`baselines/PROTOCOL.md`).
+//! so that the whole is continuous.
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
@@ -27,9 +27,9 @@ const NONE: i32 = -1;
 /// The first bytes of a file.
 const MAGIC: &[u8; 8] = b"BITFIELD";
 
-/// A spacing interpolated on a balanced quadtree over the square around the domain.
+/// f interpolated on a balanced quadtree over the square around the domain.
 #[derive(Clone, Debug)]
-pub struct Background {
+pub struct SizeField {
     root: Rect,
     /// For each cell the first of its children, or [`NONE`]: left below, right below, left above, right above.
     children: Vec<i32>,
@@ -63,7 +63,7 @@ impl Square {
     }
 }
 
-impl Background {
+impl SizeField {
     /// Samples `spacing` over `domain`, splitting cells that meet it until the interpolated value at their centre and at the
     /// middles of their sides is within a share `error` of the exact one.
     pub fn of(spacing: &dyn Spacing, domain: &Domain, error: f64) -> Self {
@@ -196,7 +196,7 @@ impl Tree {
         self.root.min + self.root.size() * DVec2::new(f64::from(x), f64::from(y)) / f64::from(SIDE)
     }
 
-    fn with_values(self, spacing: &dyn Spacing, domain: &Domain) -> Background {
+    fn with_values(self, spacing: &dyn Spacing, domain: &Domain) -> SizeField {
         let leaves = || (0..self.squares.len()).filter(|at| self.children[*at] == NONE);
         let nodes: BTreeSet<(u32, u32)> = leaves().flat_map(|at| self.squares[at].corners()).collect();
         let nodes: Vec<_> = nodes.into_iter().map(|node| (node, self.carrier(node))).collect();
@@ -214,7 +214,7 @@ impl Tree {
             NONE => self.squares[at].corners().map(|node| values[&node]),
             _ => [0.0; 4],
         };
-        Background {
+        SizeField {
             root: self.root,
             corners: (0..self.squares.len()).map(of_leaf).collect(),
             children: self.children,
@@ -301,26 +301,26 @@ mod tests {
     use crate::domain::load;
     use crate::spacing::{Options, build};
 
-    fn sampled(name: &str, spec: &str, error: f64) -> (Domain, std::sync::Arc<dyn Spacing>, Background) {
+    fn sampled(name: &str, spec: &str, error: f64) -> (Domain, std::sync::Arc<dyn Spacing>, SizeField) {
         let domain = load(name).expect("a gallery domain");
         let built = build(spec, &domain, &Options::with_alpha(0.4))
             .expect("a spacing")
             .function;
-        let background = Background::of(&*built, &domain, error);
-        (domain, built, background)
+        let field = SizeField::of(&*built, &domain, error);
+        (domain, built, field)
     }
 
     #[test]
     fn the_interpolated_value_is_near_the_exact_one() {
         for (name, spec) in [("plate-hole", "lfs"), ("unit-square", "expr:0.01 + 0.2*abs(x - 0.3)")] {
-            let (domain, exact, background) = sampled(name, spec, 0.02);
+            let (domain, exact, field) = sampled(name, spec, 0.02);
             let bounds = domain.bounds();
             let mut worst: f64 = 0.0;
             for k in 0..40_000 {
                 let share = DVec2::new(f64::from(k % 200) / 199.0, f64::from(k / 200) / 199.0);
                 let x = bounds.min + bounds.size() * share;
                 if domain.contains(x) {
-                    worst = worst.max((background.at(x) / exact.at(x) - 1.0).abs());
+                    worst = worst.max((field.at(x) / exact.at(x) - 1.0).abs());
                 }
             }
             // It is looked at in nine points of a leaf only.
@@ -330,15 +330,15 @@ mod tests {
 
     #[test]
     fn it_is_continuous_across_leaves() {
-        let (domain, _, background) = sampled("comb", "lfs", 0.02);
+        let (domain, _, field) = sampled("comb", "lfs", 0.02);
         let bounds = domain.bounds();
         let step = 1e-9 * bounds.size().max_element();
         for k in 0..=1024 {
             for across in 0..=16 {
                 // Lines on which leaves meet.
                 let along = f64::from(k) / 1024.0;
-                let on = background.root.min + background.root.size() * DVec2::new(along, f64::from(across) / 16.0);
-                let [one, two] = [-step, step].map(|dy| background.at(on + DVec2::new(0.0, dy)));
+                let on = field.root.min + field.root.size() * DVec2::new(along, f64::from(across) / 16.0);
+                let [one, two] = [-step, step].map(|dy| field.at(on + DVec2::new(0.0, dy)));
                 assert!((one / two - 1.0).abs() < 1e-5, "{on}: {one} and {two}");
             }
         }
@@ -366,8 +366,8 @@ mod tests {
 
     #[test]
     fn a_uniform_spacing_is_one_cell_and_its_file_is_as_the_protocol_says() {
-        let (_, _, background) = sampled("unit-square", "uniform:0.125", 0.02);
-        assert_eq!(background.cells(), 1);
+        let (_, _, field) = sampled("unit-square", "uniform:0.125", 0.02);
+        assert_eq!(field.cells(), 1);
         let mut expected = b"BITFIELD".to_vec();
         for number in [0.0f64, 0.0, 1.0] {
             expected.extend(number.to_le_bytes());
@@ -377,7 +377,7 @@ mod tests {
         for _ in 0..4 {
             expected.extend(0.125f64.to_le_bytes());
         }
-        assert_eq!(background.to_bytes(), expected);
-        assert_eq!(background.at(DVec2::new(7.0, -3.0)), 0.125);
+        assert_eq!(field.to_bytes(), expected);
+        assert_eq!(field.at(DVec2::new(7.0, -3.0)), 0.125);
     }
 }
