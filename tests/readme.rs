@@ -125,6 +125,33 @@ fn the_readme_is_short() {
     assert!(lines <= 120, "README.md has {lines} lines; docs/ has room");
 }
 
+/// Words of a page in backquotes that are paths: of a folder here, or of what is in one.
+fn paths(page: &str) -> Vec<&str> {
+    let words = page.split('`').skip(1).step_by(2);
+    let is_path = |word: &&str| {
+        let (folder, rest) = word.split_once('/').unwrap_or_default();
+        !rest.contains(' ') && !folder.is_empty() && root().join(folder).is_dir()
+    };
+    words.filter(is_path).collect()
+}
+
+#[test]
+fn the_architecture_names_what_is_there() {
+    let page = fs::read_to_string(root().join("ARCHITECTURE.md")).expect("a page");
+    let tree = block(&page, "```");
+    let folders = tree.iter().filter_map(|line| line.split(' ').next());
+    let text: String = page.split("```").step_by(2).collect();
+    let named: Vec<&str> = folders.chain(paths(&text)).collect();
+    assert!(named.len() > 40, "{named:?}");
+    for name in named {
+        let path = root().join(name);
+        assert!(
+            path.exists() || path.with_extension("rs").exists(),
+            "ARCHITECTURE.md names {name}"
+        );
+    }
+}
+
 #[test]
 fn links_lead_somewhere() {
     let mut all = pages(root(), false);
