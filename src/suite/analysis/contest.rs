@@ -157,8 +157,13 @@ impl<'a> Contest<'a> {
     }
 
     /// Whether there are tasks for more than one mesher.
-    pub fn has_rivals(&self) -> bool {
+    pub fn has_several_meshers(&self) -> bool {
         self.leads().len() > 1
+    }
+
+    /// The method that stands for a mesher, if it took part.
+    pub fn lead_of(&self, mesher: &str) -> Option<usize> {
+        self.leads().into_iter().find(|k| self.methods[*k].mesher == mesher)
     }
 
     /// The rows of a method, whatever came of them.
@@ -272,18 +277,6 @@ fn in_number_order(a: &str, b: &str) -> std::cmp::Ordering {
         .map(|(a, b)| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(&b.1)));
     each.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
         .then(a.len().cmp(&b.len()))
-}
-
-/// The rows in which all methods were asked for the same edge length, over t and c_b or a few of these.
-pub fn at_equal_size(rows: &[Row]) -> Contest<'_> {
-    let is_one =
-        |row: &&Row| ["grid", "meshers", "rules"].contains(&row.group.as_str()) && row.cell.triangles.is_none();
-    Contest::of(rows.iter().filter(is_one))
-}
-
-/// The rows in which all methods were asked for the same number of triangles.
-pub fn at_equal_count(rows: &[Row]) -> Contest<'_> {
-    Contest::of(rows.iter().filter(|row| row.cell.triangles.is_some()))
 }
 
 /// Seconds a triangle.

@@ -4,9 +4,6 @@ use crate::suite::analysis::summary::measured;
 use crate::suite::rows::numbers::{Line, first_seen, fit_line};
 use crate::suite::rows::record::{Report, Row};
 
-/// The group of rows that this is about.
-pub const GROUP: &str = "adapt";
-
 /// Meshes of one problem on one domain, either adapted or not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convergence {
@@ -51,12 +48,8 @@ pub fn title(row: &Row) -> String {
 }
 
 /// Two for each problem on each domain, as they first appear: the adapted meshes, then the uniform ones.
-pub fn convergence(rows: &[Row]) -> Vec<[Convergence; 2]> {
-    let own: Vec<(String, &Row)> = rows
-        .iter()
-        .filter(|row| row.group == GROUP)
-        .map(|row| (title(row), row))
-        .collect();
+pub fn convergence(rows: &[&Row]) -> Vec<[Convergence; 2]> {
+    let own: Vec<(String, &Row)> = rows.iter().map(|row| (title(row), *row)).collect();
     let titles = first_seen(own.iter().map(|(title, _)| title.as_str()));
     let one = |wanted: &str, is_adapted: bool| {
         let asked: Vec<&Row> = own

@@ -1,10 +1,11 @@
 //! What an experiment expected, held against its rows.
 
 use crate::suite::analysis::convergence::{Convergence, convergence};
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{self, Setting};
 use crate::suite::rows::numbers::first_seen;
 use crate::suite::rows::record::{Outcome, Row};
-use crate::suite::run::plan::{Expectations, SlopeRange};
+use crate::suite::run::plan::{Section, SlopeRange};
 use serde::{Deserialize, Serialize};
 
 /// An expectation and how it came out.
@@ -22,14 +23,15 @@ pub struct Finding {
 const NAMED: usize = 5;
 
 /// Holds every expectation of a plan against its rows, all of them finished.
-pub fn findings(expect: &Expectations, rows: &[Row]) -> Vec<Finding> {
+pub fn findings(results: &Results) -> Vec<Finding> {
+    let (expect, rows) = (&results.expect, &results.rows[..]);
     let mut findings = Vec::new();
     if expect.certificate_holds {
         findings.push(certificates(rows));
     }
     if let Some(largest_t) = &expect.certificate_whole_up_to_t {
-        findings.push(whole_certificates(rows, largest_t.get()));
-        findings.push(low_overlaps(rows));
+        findings.push(whole_certificates(results, largest_t.get()));
+        findings.push(low_overlaps(results));
     }
     if expect.measured_share > 0.0 {
         let measured = count_measured(rows);
@@ -47,7 +49,7 @@ pub fn findings(expect: &Expectations, rows: &[Row]) -> Vec<Finding> {
         findings.extend(unmeshed(rows, most));
     }
     if let Some(range) = expect.adapted_slope {
-        findings.extend(adapted_slopes(rows, range));
+        findings.extend(adapted_slopes(results, range));
     }
     for (domain, &least) in &expect.measured_per_domain {
         let measured = count_measured(rows.iter().filter(|row| &row.cell.domain == domain));
@@ -83,9 +85,9 @@ fn unmeshed(rows: &[Row], most: f64) -> Vec<Finding> {
 }
 
 /// One finding for each problem: how fast the L2 error falls with the vertices of adapted meshes.
-fn adapted_slopes(rows: &[Row], range: SlopeRange) -> Vec<Finding> {
+fn adapted_slopes(results: &Results, range: SlopeRange) -> Vec<Finding> {
     let SlopeRange { least, most } = range;
-    let all = convergence(rows);
+    let all = convergence(&results.of(Section::Adaptation));
     let one = |[line, _]: &[Convergence; 2]| Finding {
         expected: format!(
             "the L2 error of adapted meshes falls with a slope from {most} to {least} for {}",
@@ -124,12 +126,13 @@ fn certificates(rows: &[Row]) -> Finding {
     }
 }
 
-/// The paper's own method and setting: no input angle under 90°, t small, and no circles of neighbouring input vertices that meet
+/// The mesher in question in the paper's setting: no input angle under 90°, t small, and no circles of neighbouring input vertices that meet
 /// low. There every check must hold, whether it is guaranteed or not.
-fn whole_certificates(rows: &[Row], largest_t: f64) -> Finding {
-    let inside: Vec<_> = rows
+fn whole_certificates(results: &Results, largest_t: f64) -> Finding {
+    let inside: Vec<_> = results
+        .rows
         .iter()
-        .filter(|row| summary::is_ours(row))
+        .filter(|row| results.is_ours(row))
         .filter_map(|row| Some((row, summary::measured(row)?)))
         .filter(|(row, report)| {
             summary::setting(report) == Setting::Papers && row.cell.lfs_cap && report.t <= largest_t
@@ -154,10 +157,11 @@ fn whole_certificates(rows: &[Row], largest_t: f64) -> Finding {
 }
 
 /// Circles of neighbouring input vertices cannot overlap where c_b + t ≤ 1 and f ≤ lfs.
-fn low_overlaps(rows: &[Row]) -> Finding {
-    let low: Vec<_> = rows
+fn low_overlaps(results: &Results) -> Finding {
+    let low: Vec<_> = results
+        .rows
         .iter()
-        .filter(|row| summary::is_ours(row))
+        .filter(|row| results.is_ours(row))
         .filter_map(|row| Some((row, summary::measured(row)?)))
         .filter(|(row, report)| row.cell.lfs_cap && report.certificate.low_head_on > 0)
         .filter(|(_, report)| summary::setting(report) == Setting::LowOverlap)

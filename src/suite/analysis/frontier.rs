@@ -47,11 +47,6 @@ impl Family {
     }
 }
 
-/// The rows of the experiment on the frontier.
-pub fn rows_of(rows: &[Row]) -> Vec<&Row> {
-    rows.iter().filter(|row| row.group == "frontier").collect()
-}
-
 /// The families of some rows, in the order in which they first appear: on one domain each row is a point; over several,
 /// a setting that was measured on all of them is one, with the smallest of its angles and the median of its sizes.
 pub fn families(rows: &[&Row]) -> Vec<Family> {

@@ -6,5 +6,6 @@ pub mod expect;
 pub mod expect_battery;
 pub mod frontier;
 pub mod remarks;
+pub mod results;
 pub mod series;
 pub mod summary;

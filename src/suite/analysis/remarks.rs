@@ -1,7 +1,6 @@
-//! What the rows say of the paper's two claims on its rivals (§7): that an advancing front loses quality where fronts
+//! What the rows say of the paper's two remarks on other methods (§7): that an advancing front loses quality where fronts
 //! meet, and that maximal independent sets of oversampled points cost more than biting.
 
-use crate::meshers::MESHERS;
 use crate::quality::Angles;
 use crate::suite::analysis::contest::{Contest, Method, seconds_per_triangle};
 use crate::suite::analysis::summary::measured;
@@ -44,17 +43,9 @@ pub fn gap_share(report: &Report) -> Option<f64> {
     Some(check.broken as f64 / report.statistics.vertices.max(1) as f64)
 }
 
-/// Place of our own method in a contest.
-pub fn ours(contest: &Contest) -> Option<usize> {
-    contest
-        .leads()
-        .into_iter()
-        .find(|k| contest.methods[*k].mesher == MESHERS[0].name)
-}
-
-/// One [`Sampling`] for each density, those that end with gaps first.
-pub fn samplings(contest: &Contest) -> Vec<Sampling> {
-    let Some(ours) = ours(contest) else {
+/// One [`Sampling`] for each density, those that end with gaps first; ours is the method of the mesher `about`.
+pub fn samplings(contest: &Contest, about: &str) -> Vec<Sampling> {
+    let Some(ours) = contest.lead_of(about) else {
         return Vec::new();
     };
     let density = |k: usize| {

@@ -3,14 +3,8 @@
 //! Charts and pages take their numbers from here, so that a table and a figure cannot disagree.
 
 use crate::geometry::tolerance::RIGHT_ANGLE_DEG;
-use crate::meshers::MESHERS;
 use crate::suite::rows::numbers::{distinct, first_seen, median, quantile};
 use crate::suite::rows::record::{Outcome, Report, Row};
-
-/// Whether a row is of the paper's own method, which is the first of the list.
-pub fn is_ours(row: &Row) -> bool {
-    row.cell.mesher == MESHERS[0].name
-}
 
 /// Whether two neighbouring segments meet at an angle under 90°, inside or outside: §5.1 assumes that none do.
 pub fn is_acute(report: &Report) -> bool {

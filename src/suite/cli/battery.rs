@@ -5,6 +5,7 @@ use super::output::{say, say_aside};
 use super::shards::{file_name, say_done};
 use crate::files::write_whole;
 use crate::suite::analysis::expect_battery::findings;
+use crate::suite::analysis::results::PLAN;
 use crate::suite::rows::journal::Journal;
 use crate::suite::rows::machine;
 use crate::suite::run::battery::CHUNKS;
@@ -118,7 +119,7 @@ pub fn keys(plan: &Plan) -> Vec<String> {
 
 /// Page and verdict, once every chunk has a line.
 pub fn finish(plan: &Plan, folder: &Path, chunks: &[Chunk]) -> Outcome {
-    let copy = folder.join("plan.toml");
+    let copy = folder.join(PLAN);
     write_whole(&copy, plan.text.as_bytes()).map_err(|cause| Failure::Input(format!("{}: {cause}", copy.display())))?;
     for chunk in chunks {
         if let Some(reason) = &chunk.skipped {

@@ -9,6 +9,7 @@ use super::shards::{file_name, join, say_done};
 use super::values::bytes;
 use crate::files::write_whole;
 use crate::suite::analysis::expect::{Finding, anything_measured, findings};
+use crate::suite::analysis::results::{PLAN, Results};
 use crate::suite::rows::journal::{Journal, Record};
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{self, Cell, Provenance, Row};
@@ -149,7 +150,7 @@ pub fn run_cells(
         return Ok(());
     }
     let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
-    finish(plan, folder, &rows)
+    finish(plan, folder, rows)
 }
 
 /// Opens a file of rows or chunks, and tells what a kill left in it.
@@ -289,6 +290,10 @@ fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -
         "about {:.0} s with {threads} side by side; the guess knows the spacing before limiting only",
         seconds
     ));
+    for (section, groups) in &plan.sections {
+        let groups: Vec<&str> = groups.iter().map(String::as_str).collect();
+        say(format_args!("its page shows `{section}` of {}", groups.join(", ")));
+    }
     Ok(())
 }
 
@@ -296,17 +301,17 @@ fn merge(plan: &Plan, folder: &Path) -> Outcome {
     if plan.batteries.is_empty() {
         let cells = plan.cells().map_err(Failure::input)?;
         let keys: Vec<String> = cells.into_iter().map(|planned| planned.key).collect();
-        finish(plan, folder, &join(folder, record::ROWS, &keys)?)
+        finish(plan, folder, join(folder, record::ROWS, &keys)?)
     } else {
         battery::finish(plan, folder, &join(folder, CHUNKS, &battery::keys(plan))?)
     }
 }
 
 /// Charts, page and verdict, once every cell has a row.
-fn finish(plan: &Plan, folder: &Path, rows: &[Row]) -> Outcome {
-    let copy = folder.join("plan.toml");
+fn finish(plan: &Plan, folder: &Path, rows: Vec<Row>) -> Outcome {
+    let copy = folder.join(PLAN);
     write_whole(&copy, plan.text.as_bytes()).map_err(|cause| Failure::Input(format!("{}: {cause}", copy.display())))?;
-    if !anything_measured(rows) {
+    if !anything_measured(&rows) {
         let reason = rows
             .iter()
             .find_map(|row| row.reason.as_deref())
@@ -314,7 +319,7 @@ fn finish(plan: &Plan, folder: &Path, rows: &[Row]) -> Outcome {
         return Err(Failure::NothingMeasured(format!("nothing could be measured: {reason}")));
     }
     super::report::write(folder)?;
-    tell(&findings(&plan.expect, rows))
+    tell(&findings(&Results::new(plan.clone(), rows)))
 }
 
 /// Tells what was expected and what came out.

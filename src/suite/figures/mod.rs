@@ -19,8 +19,7 @@ mod study;
 mod tests;
 
 use crate::files::write_whole;
-use crate::suite::report;
-use crate::suite::rows::record::{ROWS, Row};
+use crate::suite::analysis::results::Results;
 use drawing::{Drawing, Picture};
 use run::Run;
 use std::path::{Path, PathBuf};
@@ -97,7 +96,7 @@ struct Material {
     /// The folder of results.
     results: PathBuf,
     runs: OnceLock<Vec<Run>>,
-    rows: OnceLock<Result<Vec<Row>, String>>,
+    sweep: OnceLock<Result<Results, String>>,
 }
 
 impl Material {
@@ -105,7 +104,7 @@ impl Material {
         Self {
             results: results.to_path_buf(),
             runs: OnceLock::new(),
-            rows: OnceLock::new(),
+            sweep: OnceLock::new(),
         }
     }
 
@@ -114,19 +113,19 @@ impl Material {
         self.runs.get_or_init(run::searched)
     }
 
-    /// The rows of the sweep.
-    fn rows(&self) -> Result<&[Row], String> {
+    /// The results of the sweep.
+    fn sweep(&self) -> Result<&Results, String> {
         let read = || {
-            let path = self.results.join(SWEEP).join(ROWS);
-            report::read(&path).map_err(|error| {
+            let folder = self.results.join(SWEEP);
+            Results::read(&folder).map_err(|error| {
                 format!(
                     "{error}; the figures of the study are drawn from a sweep: run this where {} is, name its folder by --results, \
                      or draw only others by --only",
-                    path.display()
+                    folder.display()
                 )
             })
         };
-        self.rows.get_or_init(read).as_deref().map_err(Clone::clone)
+        self.sweep.get_or_init(read).as_ref().map_err(Clone::clone)
     }
 }
 

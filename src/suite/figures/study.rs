@@ -10,19 +10,20 @@ use crate::mesh::Mesh;
 use crate::meshers::{MESHERS, Parameters};
 use crate::quality::angles_deg;
 use crate::spacing::{self, Ingredients, Options, Spacing, Spec, lfs_of};
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::series::{TimeSeries, time_series};
 use crate::suite::analysis::summary::{Grid, Setting, measured, setting};
 use crate::suite::charts::{self, SIZE_RATIO};
-use crate::suite::report::{grids, ours};
 use crate::suite::rows::numbers::median;
 use crate::suite::rows::record::{Cell, Row};
 use crate::suite::run::measure::fingerprint;
+use crate::suite::run::plan::Section;
 use serde_json::Value;
 use std::sync::Arc;
 
 /// The measured smallest angle against the bound.
 pub(super) fn angle(material: &Material) -> Result<Drawing<'_>, String> {
-    let rows = material.rows()?;
+    let sweep = material.sweep()?;
     let points = |row: &Row| {
         let report = measured(row)?;
         let angle = report.statistics.min_angle_free_deg?;
@@ -33,7 +34,7 @@ pub(super) fn angle(material: &Material) -> Result<Drawing<'_>, String> {
             setting(report),
         ))
     };
-    let grid = all_of_grid(rows);
+    let grid = all_of_grid(sweep);
     let points: Vec<_> = grid.rows.iter().filter_map(|row| points(row)).collect();
     let worst = |wanted: bool| {
         let own = points
@@ -62,7 +63,7 @@ pub(super) fn angle(material: &Material) -> Result<Drawing<'_>, String> {
         .number("least_margin_elsewhere_deg", other_margin)
         .with("hash", super::page::hash(&Value::from(values.collect::<Vec<_>>())));
     Ok(Drawing {
-        picture: Picture::Chart(Box::new(|stem| charts::smallest_angle(&all_of_grid(rows), stem))),
+        picture: Picture::Chart(Box::new(|stem| charts::smallest_angle(&all_of_grid(sweep), stem))),
         caption,
         numbers,
         commands: vec![SWEEP.into()],
@@ -72,8 +73,13 @@ pub(super) fn angle(material: &Material) -> Result<Drawing<'_>, String> {
 /// What the rows of the study were made by.
 const SWEEP: &str = "cargo run --release -- sweep";
 
-fn all_of_grid(rows: &[Row]) -> Grid<'_> {
-    Grid::of(grids(rows).iter().flat_map(|(_, grid)| grid.rows.iter().copied()))
+fn all_of_grid(sweep: &Results) -> Grid<'_> {
+    Grid::of(
+        sweep
+            .grids(Section::Angle)
+            .iter()
+            .flat_map(|(_, grid)| grid.rows.iter().copied()),
+    )
 }
 
 /// Six digits are more than a chart shows.
@@ -83,9 +89,9 @@ fn digits(value: f64) -> f64 {
 
 /// Triangles over ∫ dA / f² against t and c_b.
 pub(super) fn size(material: &Material) -> Result<Drawing<'_>, String> {
-    let rows = material.rows()?;
-    let grids_of_rows = grids(rows);
-    let Some((title, first)) = grids_of_rows.first() else {
+    let sweep = material.sweep()?;
+    let grids = sweep.grids(Section::Size);
+    let Some((title, first)) = grids.first() else {
         return Err("the sweep has no grid of t and c_b".into());
     };
     let mut medians = Vec::new();
@@ -115,7 +121,9 @@ pub(super) fn size(material: &Material) -> Result<Drawing<'_>, String> {
         .map(|(t, c_b, ratio)| Value::from(vec![*t, *c_b, digits(*ratio)]));
     let numbers = Numbers::default().with("t_c_b_median", values.collect::<Vec<_>>());
     Ok(Drawing {
-        picture: Picture::Chart(Box::new(|stem| charts::against_t(&grids(rows), SIZE_RATIO, stem))),
+        picture: Picture::Chart(Box::new(|stem| {
+            charts::against_t(&sweep.grids(Section::Size), SIZE_RATIO, stem)
+        })),
         caption,
         numbers,
         commands: vec![SWEEP.into()],
@@ -130,8 +138,8 @@ const LEAST_SHARE: f64 = 0.01;
 
 /// Time a triangle against size, with the triangulation's own beside it.
 pub(super) fn time(material: &Material) -> Result<Drawing<'_>, String> {
-    let rows = material.rows()?;
-    let series = time_series(&ours(rows, "time"));
+    let sweep = material.sweep()?;
+    let series = time_series(&sweep.ours(Section::Time));
     let whole = series.first().ok_or("the sweep has no timed runs")?;
     let triangulation = series.iter().find(|series| series.name == TRIANGULATION);
     let triangulation = triangulation.ok_or("the timed runs do not say how long the triangulation took")?;

@@ -134,6 +134,11 @@ const PASSES: Parameter = Parameter {
     help: "most rounds of refinement for a size that varies",
 };
 
+/// Whether a mesher of that name is a peer.
+pub fn is_peer(name: &str) -> bool {
+    PEERS.iter().any(|entry| entry.name == name)
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::Peer;

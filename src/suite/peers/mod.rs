@@ -15,7 +15,7 @@ pub mod process;
 pub mod size_field;
 
 pub use any::{AnyEntry, AnyMesher, RunError};
-pub use list::{PEERS, PeerEntry};
+pub use list::{PEERS, PeerEntry, is_peer};
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;

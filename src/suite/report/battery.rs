@@ -1,12 +1,11 @@
 //! `README.md` of an experiment of batteries: how many cases ended how, and why.
 
 use super::markdown::{number, plain, table};
-use super::page::Heading;
 use crate::suite::analysis::expect_battery::{by_method, findings, sums};
 use crate::suite::rows::numbers::first_seen;
 use crate::suite::run::battery::chunk::{Chunk, Reason, Tally};
 use crate::suite::run::battery::trial::Verdict;
-use crate::suite::run::plan::Expectations;
+use crate::suite::run::plan::{Expectations, Plan};
 
 /// Most reasons a table has.
 const MOST_REASONS: usize = 40;
@@ -23,15 +22,13 @@ const VERDICTS: [(Verdict, &str); 7] = [
 ];
 
 /// The whole page.
-pub(super) fn page(chunks: &[Chunk], heading: &Heading, expect: &Expectations) -> String {
-    let mut text = format!("# Results of `{}`\n\n", heading.name);
+pub(super) fn page(chunks: &[Chunk], plan: &Plan, name: &str) -> String {
+    let mut text = format!("# Results of `{name}`\n\n");
     text += "This page is made from `chunks.jsonl` alone, by `biting report`; nothing here is typed.\n\n";
-    if let Some(question) = &heading.question {
-        text += &format!("**Question.** {question}\n\n");
-    }
+    text += &format!("**Question.** {}\n\n", plan.question.trim());
     text += &format!("## Main findings\n\n{}\n", finding_lines(chunks));
-    text += &expected(chunks, expect);
-    text += &what_was_run(chunks, &heading.name);
+    text += &expected(chunks, &plan.expect);
+    text += &what_was_run(chunks, name);
     text += &families(chunks);
     text += &methods(chunks);
     text += &shares(chunks);
@@ -305,15 +302,12 @@ mod tests {
                 "too large",
             ),
         ];
-        let heading = Heading {
-            name: "robustness".into(),
-            question: Some("What breaks?".into()),
-        };
-        let expect = Expectations {
-            declined_share: Some(0.2),
-            ..Expectations::default()
-        };
-        let page = page(&chunks, &heading, &expect);
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("robustness.toml");
+        let text = "question = \"What breaks?\"\n[expect]\ndeclined_share = 0.2\n[[battery]]\nfamilies = [\"fan\"]\nfolder = \"x\"\n\
+                    methods = [{ mesher = \"biting\" }]\nspacings = [\"lfs\"]\nt = [0.25]\nc_b = [0.5]\n";
+        std::fs::write(&file, text).expect("written");
+        let page = page(&chunks, &Plan::read(&file).expect("a plan"), "robustness");
         for told in [
             "**Question.** What breaks?",
             "* **20 cases** of 2 families by 2 methods: 16 certified, 4 declined (20.00 %), 0 stopped",

@@ -1,17 +1,17 @@
-//! Meshes by biting with corners bitten like any other, beside those with corners cut off: the group `corners`.
+//! Meshes by biting with corners bitten like any other, beside those with corners cut off.
 
-use super::findings::of_group;
+use super::drawer::Drawer;
 use super::markdown::{degrees, number, parameter, table};
-use super::meshes::{Picture, file_name, made_again};
+use super::meshes::{file_name, made_again};
 use crate::geometry::DVec2;
 use crate::mesh::Mesh;
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
 use crate::suite::charts::{ChartError, side_by_side, window};
 use crate::suite::rows::numbers::{first_seen, quantile};
 use crate::suite::rows::record::{Report, Row};
-use crate::suite::run::prepare::Store;
+use crate::suite::run::plan::Section;
 use crate::theory::Claim;
-use std::path::Path;
 
 /// Two rows that differ in what is done about corners.
 struct Pair<'a> {
@@ -24,8 +24,8 @@ fn is_bitten(row: &Row) -> bool {
     row.cell.params.get("corners").and_then(|value| value.as_str()) == Some("bite")
 }
 
-fn pairs(rows: &[Row]) -> Vec<Pair<'_>> {
-    let own = of_group(rows, "corners");
+fn pairs(results: &Results) -> Vec<Pair<'_>> {
+    let own = results.of(Section::Corners);
     let asked = |row: &Row| {
         (
             row.cell.domain.clone(),
@@ -59,8 +59,8 @@ fn triangles(pair: &Pair) -> f64 {
 }
 
 /// What cutting corners off does, mesh by mesh.
-pub(super) fn corners(rows: &[Row]) -> String {
-    let pairs = pairs(rows);
+pub(super) fn text(results: &Results) -> String {
+    let pairs = pairs(results);
     if pairs.is_empty() {
         return String::new();
     }
@@ -104,8 +104,12 @@ pub(super) fn corners(rows: &[Row]) -> String {
 }
 
 /// The section in a line.
-pub(super) fn corner_finding(rows: &[Row]) -> Option<String> {
-    let pairs = pairs(rows);
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    finding(results).into_iter().collect()
+}
+
+fn finding(results: &Results) -> Option<String> {
+    let pairs = pairs(results);
     let spread = |of: &dyn Fn(&Pair) -> f64| {
         let values: Vec<f64> = pairs.iter().map(of).collect();
         Some((quantile(values.clone(), 0.0)?, quantile(values, 0.5)?))
@@ -132,15 +136,14 @@ const WINDOW_EDGES: f64 = 8.0;
 
 /// Draws, for each domain, the pair of meshes with the fewest triangles, with a close look at the worst triangle that biting
 /// leaves beyond corners.
-pub(super) fn draw(store: &Store, rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartError> {
-    let pairs = pairs(rows);
-    let mut pictures = Vec::new();
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
+    let pairs = pairs(results);
     for domain in first_seen(pairs.iter().map(|pair| pair.reports[0].domain.as_str())) {
         let own = pairs.iter().filter(|pair| pair.reports[0].domain == domain);
         let Some(pair) = own.min_by_key(|pair| pair.reports[0].statistics.triangles) else {
             continue;
         };
-        let made = [0, 1].map(|k| made_again(store, pair.rows[k], pair.reports[k]));
+        let made = [0, 1].map(|k| made_again(&drawer.store, pair.rows[k], pair.reports[k]));
         let [Some(bitten), Some(cut)] = made else {
             continue;
         };
@@ -155,29 +158,22 @@ pub(super) fn draw(store: &Store, rows: &[Row], folder: &Path) -> Result<Vec<Pic
             )
         };
         let titles = [told("bitten", pair.reports[0]), told("cut off", pair.reports[1])];
-        let name = format!("corners-{}", file_name(domain));
         let meshes = [(titles[0].as_str(), &bitten), (titles[1].as_str(), &cut)];
-        side_by_side(
-            meshes,
-            window(place, WINDOW_EDGES * edge),
-            &folder.join(format!("{name}.png")),
-        )?;
         let report = pair.reports[0];
-        pictures.push(Picture {
-            title: format!("Meshes of {domain} before and after corners are cut off"),
-            caption: format!(
-                "`{domain}` with `{}`, t = {}, c_b = {}: left corners {}, right {} beyond input angles under 60°; below, the \
-                 place of the worst triangle on the left, and how triangles spread over smallest angles",
-                report.spacing,
-                parameter(report.t),
-                parameter(report.c_b),
-                titles[0],
-                titles[1]
-            ),
-            name,
-        });
+        let caption = format!(
+            "`{domain}` with `{}`, t = {}, c_b = {}: left corners {}, right {} beyond input angles under 60°; below, the \
+             place of the worst triangle on the left, and how triangles spread over smallest angles",
+            report.spacing,
+            parameter(report.t),
+            parameter(report.c_b),
+            titles[0],
+            titles[1]
+        );
+        let title = format!("Meshes of {domain} before and after corners are cut off");
+        let file = drawer.picture(&format!("corners-{}", file_name(domain)), &title, &caption);
+        side_by_side(meshes, window(place, WINDOW_EDGES * edge), &file)?;
     }
-    Ok(pictures)
+    Ok(())
 }
 
 /// Where the smallest angle beyond corners is, and the longest edge of that triangle.

@@ -1,11 +1,17 @@
-//! Where biting wins, where it loses and why: task by task against each rival.
+//! Where the mesher in question wins, where it loses and why: task by task against each of the others.
 
+use super::drawer::Drawer;
 use super::markdown::{number, table};
-use crate::suite::analysis::contest::{Contest, at_equal_count, at_equal_size, seconds_per_triangle};
-use crate::suite::analysis::remarks::{gap_share, ours};
+use super::ranks;
+use crate::suite::analysis::contest::{Contest, seconds_per_triangle};
+use crate::suite::analysis::remarks::gap_share;
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{Setting, setting};
+use crate::suite::charts::{self, ChartError};
+use crate::suite::peers::is_peer;
 use crate::suite::rows::numbers::median;
-use crate::suite::rows::record::{Report, Row};
+use crate::suite::rows::record::Report;
+use crate::suite::run::plan::Section;
 
 /// A number two methods are compared by on the same task.
 #[derive(Clone, Copy)]
@@ -117,21 +123,26 @@ pub(super) fn duel(contest: &Contest, ours: usize, rival: usize, by: Yardstick) 
     })
 }
 
-/// The rivals' defaults beside ours.
-fn rivals(contest: &Contest) -> Option<(usize, Vec<usize>)> {
-    let ours = ours(contest)?;
+/// Ours, and the others by their defaults.
+fn sides(contest: &Contest, about: &str) -> Option<(usize, Vec<usize>)> {
+    let ours = contest.lead_of(about)?;
     let others: Vec<usize> = contest.leads().into_iter().filter(|k| *k != ours).collect();
     (!others.is_empty()).then_some((ours, others))
 }
 
-/// The part of the page.
-pub(super) fn duels(rows: &[Row]) -> String {
+/// The two ways of asking, and whether it is that of equal count.
+pub(super) fn contests(results: &Results) -> [(&'static str, Contest<'_>, bool); 2] {
+    [
+        ("equal edge length", results.at_equal_size(Section::Duels), false),
+        ("equal triangle count", results.at_equal_count(Section::Duels), true),
+    ]
+}
+
+/// Task by task against each of the others, and the places of all.
+pub(super) fn text(results: &Results) -> String {
     let mut text = String::new();
-    for (title, contest, is_count) in [
-        ("equal edge length", at_equal_size(rows), false),
-        ("equal triangle count", at_equal_count(rows), true),
-    ] {
-        let Some((ours, others)) = rivals(&contest) else {
+    for (title, contest, is_count) in contests(results) {
+        let Some((ours, others)) = sides(&contest, &results.about) else {
             continue;
         };
         for rival in others {
@@ -142,7 +153,34 @@ pub(super) fn duels(rows: &[Row]) -> String {
         }
         text += &by_setting(&contest, ours, title);
     }
-    text
+    text + &ranks::ranks(results)
+}
+
+/// Smallest and mean angles domain by domain.
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
+    for (title, contest, is_count) in contests(results) {
+        if contest.has_several_meshers() {
+            let name = if is_count {
+                "meshers-count-domains"
+            } else {
+                "meshers-domains"
+            };
+            let caption = format!("Smallest and mean angle of each mesher on each domain at {title}.");
+            charts::domains(&contest, &contest.leads(), &drawer.chart(name, &caption))?;
+        }
+    }
+    Ok(())
+}
+
+/// The comparison in short. Beside peers there are too many others for a line each.
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    let has_peers = results.rows.iter().any(|row| is_peer(&row.cell.mesher));
+    let compared = if has_peers {
+        ranks::best_findings(results)
+    } else {
+        duel_findings(results)
+    };
+    compared.into_iter().chain(ranks::rank_finding(results)).collect()
 }
 
 fn against(contest: &Contest, ours: usize, rival: usize, title: &str, is_count: bool) -> String {
@@ -272,9 +310,9 @@ pub(super) fn signed(value: impl Into<Option<f64>>) -> String {
 }
 
 /// The comparison in a line for each rival: by what ours wins on most tasks, and by what it loses.
-pub(super) fn duel_findings(rows: &[Row]) -> Vec<String> {
-    let (size, count) = (at_equal_size(rows), at_equal_count(rows));
-    let Some((ours, others)) = rivals(&size) else {
+pub(super) fn duel_findings(results: &Results) -> Vec<String> {
+    let [(_, size, _), (_, count, _)] = contests(results);
+    let Some((ours, others)) = sides(&size, &results.about) else {
         return Vec::new();
     };
     let line = |rival: usize| {

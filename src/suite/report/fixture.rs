@@ -1,10 +1,13 @@
 //! Made-up rows: a small sweep whose numbers follow a formula, so that findings can be worked out by hand.
 
 use crate::quality::{Certificate, Check, Statistics};
-use crate::suite::rows::record::{Cell, Outcome, Provenance, Report, Row, Seconds};
+use crate::suite::analysis::results::{PLAN, Results};
+use crate::suite::rows::numbers::first_seen;
+use crate::suite::rows::record::{Cell, Outcome, Provenance, ROWS, Report, Row, Seconds};
 use crate::theory::Claim;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
+use std::path::Path;
 
 pub(super) const TS: [f64; 7] = [0.05, 0.1, 0.2, 0.25, 0.3333, 0.4, 0.5];
 pub(super) const C_BS: [f64; 7] = [0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0];
@@ -212,10 +215,51 @@ pub(super) fn sweep() -> Vec<Row> {
     rows
 }
 
-/// As `rows.jsonl`.
-pub(super) fn lines(rows: &[Row]) -> String {
+/// What the pages of these tests show of each group.
+const SECTIONS: [(&str, &str); 10] = [
+    ("adapt", r#""adaptation""#),
+    ("count", r#""methods", "tasks", "duels""#),
+    ("frontier", r#""frontier""#),
+    ("grid", r#""angle", "size", "fewest", "meshes""#),
+    ("meshers", r#""methods", "peers", "tasks", "duels", "seams""#),
+    ("orders", r#""orders""#),
+    ("oversampling", r#""oversampling""#),
+    ("poisson", r#""poisson""#),
+    ("rules", r#""rules""#),
+    ("time", r#""time""#),
+];
+
+/// A plan with the groups of these rows; its cells do not matter.
+fn plan(rows: &[Row]) -> String {
+    let group = |name: &str| {
+        let sections = SECTIONS.iter().find(|(known, _)| *known == name).expect(name).1;
+        format!(
+            "[[group]]\nname = \"{name}\"\nsections = [{sections}]\ndomains = [\"a\"]\nspacings = [\"lfs\"]\n\
+             mesher = \"biting\"\nt = [0.25]\nc_b = [0.5]\n"
+        )
+    };
+    let groups = first_seen(rows.iter().map(|row| row.group.as_str()))
+        .into_iter()
+        .map(group);
+    "question = \"What comes out?\"\n".to_owned() + &groups.collect::<String>()
+}
+
+/// Writes rows and their plan as a run leaves them.
+pub(super) fn leave(rows: &[Row], folder: &Path) {
+    std::fs::create_dir_all(folder).expect("a folder");
     let line = |row: &Row| serde_json::to_string(row).expect("rows are plain data") + "\n";
-    rows.iter().map(line).collect()
+    std::fs::write(folder.join(ROWS), rows.iter().map(line).collect::<String>()).expect("written");
+    std::fs::write(folder.join(PLAN), plan(rows)).expect("written");
+}
+
+/// Rows with their plan, in the order in which they stand here.
+pub(super) fn results(rows: &[Row]) -> Results {
+    let folder = tempfile::tempdir().expect("a folder");
+    leave(rows, folder.path());
+    Results {
+        rows: rows.to_vec(),
+        ..Results::read(folder.path()).expect("results")
+    }
 }
 
 /// A row of some method on `domain`, not measured.

@@ -25,6 +25,13 @@ pub(super) fn degrees(value: impl Into<Option<f64>>) -> String {
     }
 }
 
+/// A share as a percentage with three digits that count.
+pub(super) fn percent(share: impl Into<Option<f64>>) -> String {
+    share
+        .into()
+        .map_or_else(|| "–".into(), |share| format!("{} %", number(100.0 * share)))
+}
+
 /// A parameter such as t or c_b, without the noise of its last digits.
 pub(super) fn parameter(value: f64) -> String {
     rounded(value).to_string()

@@ -1,28 +1,19 @@
-//! A picture of a mesh of each domain, made again from its row.
+//! Pictures of meshes, made again from their rows.
 
+use super::drawer::Drawer;
 use super::markdown::{degrees, parameter};
 use crate::mesh::Mesh;
 use crate::meshers::{Budget, Request};
-use crate::suite::analysis::contest::at_equal_size;
+use crate::suite::analysis::contest::Contest;
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
 use crate::suite::charts::{ChartError, draw_mesh, draw_mesh_sheet};
 use crate::suite::rows::numbers::first_seen;
 use crate::suite::rows::record::{Report, Row};
 use crate::suite::run::measure::{fingerprint, run};
+use crate::suite::run::plan::Section;
 use crate::suite::run::prepare::Store;
 use crate::suite::run::runner::mesher;
-use std::path::Path;
-
-/// A picture of the page.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Picture {
-    /// Its file is `charts/NAME.png`.
-    pub(super) name: String,
-    /// What it shows, for who cannot see it.
-    pub(super) title: String,
-    /// The same with numbers.
-    pub(super) caption: String,
-}
 
 /// What is shown: where triangles can be seen, near this t and c_b.
 const SHOWN_T: f64 = 0.25;
@@ -35,33 +26,32 @@ const MOST_TRIANGLES: usize = 60_000;
 /// Triangles of a mesh on the sheet of meshers: enough to show what they do, few enough to be seen.
 const SHEET_TRIANGLES: f64 = 900.0;
 
-/// Draws one domain meshed by every mesher, and a mesh of each domain of the grid. A row says enough to make its mesh again, and its fingerprint whether that
-/// came out the same; where it did not, on another machine or by a later version, there is no picture.
-pub(super) fn draw(rows: &[Row], folder: &Path) -> Result<Vec<Picture>, ChartError> {
-    let store = Store::new(None, false);
-    let mut pictures: Vec<Picture> = meshers(&store, rows, folder)?.into_iter().collect();
-    pictures.extend(super::corners::draw(&store, rows, folder)?);
+/// What the pictures are.
+pub(super) fn text(_: &Results) -> String {
+    "Made again from their rows, bit for bit by their fingerprints.\n\n".to_owned()
+}
+
+/// Draws a mesh of each domain of the section. A row says enough to make its mesh again, and its fingerprint whether that came out
+/// the same; where it did not, on another machine or by a later version, there is no picture.
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
     let mut sheet: Vec<(String, Mesh)> = Vec::new();
-    for (row, report) in chosen(rows) {
-        let Some(mesh) = made_again(&store, row, report) else {
+    for (row, report) in chosen(results) {
+        let Some(mesh) = made_again(&drawer.store, row, report) else {
             continue;
         };
+        let title = format!("Mesh of {}", report.domain);
+        let caption = format!("`{}` with {}", report.domain, told(report));
         let name = format!("mesh-{}", file_name(&row.cell.domain));
-        draw_mesh(&mesh, &folder.join(format!("{name}.png")))?;
-        pictures.push(Picture {
-            name,
-            title: format!("Mesh of {}", report.domain),
-            caption: format!("`{}` with {}", report.domain, told(report)),
-        });
+        draw_mesh(&mesh, &drawer.picture(&name, &title, &caption))?;
         if SHEET.contains(&row.cell.domain.as_str()) {
             sheet.push((row.cell.domain.clone(), mesh));
         }
     }
     if sheet.len() == SHEET.len() {
         let titled: Vec<_> = sheet.iter().map(|(title, mesh)| (title.as_str(), mesh)).collect();
-        draw_mesh_sheet(&titled, &folder.join("four-meshes.png"))?;
+        draw_mesh_sheet(&titled, &drawer.file("four-meshes"))?;
     }
-    Ok(pictures)
+    Ok(())
 }
 
 /// A domain's name as part of a file's.
@@ -72,9 +62,9 @@ pub(super) fn file_name(domain: &str) -> String {
         .collect()
 }
 
-/// One measured row of each domain: of the grid's first spacing, nearest to what is to be shown.
-fn chosen(rows: &[Row]) -> Vec<(&Row, &Report)> {
-    let grids = super::findings::grids(rows);
+/// One measured row of each domain: of the first spacing, nearest to what is to be shown.
+fn chosen(results: &Results) -> Vec<(&Row, &Report)> {
+    let grids = results.grids(Section::Meshes);
     let Some((_, grid)) = grids.first() else {
         return Vec::new();
     };
@@ -89,9 +79,8 @@ fn chosen(rows: &[Row]) -> Vec<(&Row, &Report)> {
     domains.iter().filter_map(best).collect()
 }
 
-/// One domain meshed by the defaults of every mesher, for the same edge length.
-fn meshers(store: &Store, rows: &[Row], folder: &Path) -> Result<Option<Picture>, ChartError> {
-    let contest = at_equal_size(rows);
+/// Draws one domain meshed by the defaults of every mesher, for the same edge length.
+pub(super) fn side_by_side(contest: &Contest, drawer: &mut Drawer) -> Result<(), ChartError> {
     let leads = contest.leads();
     let common = contest.common(&leads);
     let off = |task: &usize| {
@@ -100,32 +89,26 @@ fn meshers(store: &Store, rows: &[Row], folder: &Path) -> Result<Option<Picture>
     };
     let known = |task: &&usize| SHEET.contains(&contest.tasks[**task].domain.as_str());
     let shown = common.iter().filter(known).min_by(|a, b| off(a).total_cmp(&off(b)));
-    let Some(&task) = shown.filter(|_| contest.has_rivals()) else {
-        return Ok(None);
+    let Some(&task) = shown.filter(|_| contest.has_several_meshers()) else {
+        return Ok(());
     };
     let made = |k: &usize| {
         let (row, report) = (contest.row(*k, task)?, contest.report(*k, task)?);
-        Some((
-            contest.methods[*k].label.clone(),
-            made_again(store, row, report)?,
-            told(report),
-        ))
+        let mesh = made_again(&drawer.store, row, report)?;
+        Some((contest.methods[*k].label.as_str(), mesh, told(report)))
     };
     let Some(made) = leads.iter().map(made).collect::<Option<Vec<_>>>() else {
-        return Ok(None);
+        return Ok(());
     };
-    let titled: Vec<_> = made.iter().map(|(label, mesh, _)| (label.as_str(), mesh)).collect();
-    let name = "meshers-side-by-side".to_string();
-    draw_mesh_sheet(&titled, &folder.join(format!("{name}.png")))?;
+    let titled: Vec<_> = made.iter().map(|(label, mesh, _)| (*label, mesh)).collect();
     let each: Vec<String> = made
         .iter()
         .map(|(label, _, told)| format!("{label} with {told}"))
         .collect();
-    Ok(Some(Picture {
-        name,
-        title: format!("{} meshed by every mesher", contest.tasks[task].domain),
-        caption: format!("`{}` by {}", contest.tasks[task].domain, each.join("; ")),
-    }))
+    let domain = &contest.tasks[task].domain;
+    let title = format!("{domain} meshed by every mesher");
+    let caption = format!("`{domain}` by {}", each.join("; "));
+    draw_mesh_sheet(&titled, &drawer.picture("meshers-side-by-side", &title, &caption))
 }
 
 /// What was asked for, and what came out.

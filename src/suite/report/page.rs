@@ -1,153 +1,70 @@
 //! `README.md` of a results folder: what was run, what came out, the charts.
 
-use super::adapt;
-use super::angles;
-use super::claims;
-use super::corners;
-use super::duels;
-use super::figures::{Chart, Section};
-use super::findings::{grids, of_group, spread, tally};
-use super::frontiers;
+use super::certificate;
+use super::drawer::Chart;
 use super::markdown::{number, parameter, plain, table};
-use super::meshes::Picture;
-use super::peers;
-use super::poisson;
-use super::ranks;
-use super::rivals;
-use super::rules;
-use super::sections;
+use super::sections::Entry;
 use super::standings::standings;
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{by_spacing, measured};
-use crate::suite::rows::numbers::{first_seen, quantile};
+use crate::suite::rows::numbers::{first_seen, quantile, spread};
 use crate::suite::rows::record::{Outcome, Row};
+use crate::suite::run::plan::Section;
 
-/// What the page tells besides the rows.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Heading {
-    /// Name of the results folder.
-    pub(super) name: String,
-    /// The question the plan asks, where the plan lies beside the rows.
-    pub(super) question: Option<String>,
-}
-
-/// The whole page.
-pub(super) fn page(rows: &[Row], charts: &[Chart], pictures: &[Picture], heading: &Heading) -> String {
-    let mut text = format!("# Results of `{}`\n\n", heading.name);
+/// The whole page of an experiment: `charts` has what was drawn for each of its sections.
+pub(super) fn page(results: &Results, charts: &[(Section, Vec<Chart>)], name: &str) -> String {
+    let mut text = format!("# Results of `{name}`\n\n");
     text += "This page and its charts are made from `rows.jsonl` alone, by `biting report`; nothing here is typed.\n\n";
-    text += &format!(
-        "**Question.** {}\n\n",
-        heading.question.as_deref().unwrap_or(DEFAULT_QUESTION)
-    );
-    text += &main_findings(rows);
-    text += &what_was_run(rows, &heading.name);
-    let parts = [
-        ("Smallest angle against its bound", angles::angles(rows), Section::Angle),
-        ("Size", sections::sizes(rows), Section::Size),
-        (
-            "Fewest triangles for a smallest angle",
-            sections::fewest_triangles(rows),
-            Section::Fewest,
-        ),
-        (
-            "What a smallest angle costs",
-            frontiers::frontiers(rows),
-            Section::Frontier,
-        ),
-        ("Corners", corners::corners(rows), Section::Corners),
-        ("Who bites whom", rules::rules(rows), Section::Rules),
-        ("Orders of bites", sections::orders(rows), Section::Orders),
-        ("Time of biting, step by step", sections::time(rows), Section::Time),
-        ("Meshers side by side", rivals::rivals(rows), Section::Rivals),
-        ("What quality is for", poisson::poisson(rows), Section::Poisson),
-        ("Adaptation", adapt::adaptation(rows), Section::Adaptation),
-        ("Beside the meshers people use", peers::peers(rows), Section::Peers),
-        (
-            "Where biting wins, where it loses, and why",
-            duels::duels(rows) + &ranks::ranks(rows),
-            Section::Duels,
-        ),
-        (
-            "The paper's claims on its rivals",
-            claims::claims(rows),
-            Section::Claims,
-        ),
-    ];
-    for (title, part, section) in parts {
-        let own: Vec<&Chart> = charts.iter().filter(|chart| chart.section == section).collect();
-        if part.is_empty() && own.is_empty() {
-            continue;
+    text += &format!("**Question.** {}\n\n", results.question);
+    text += &format!("## Main findings\n\n{}\n", bullets(findings(results)));
+    text += &what_was_run(results, name);
+    for (section, charts) in charts {
+        let Entry { title, text: body, .. } = Entry::of(*section);
+        let body = body(results);
+        text += &format!("## {title}\n\n{body}");
+        if body.is_empty() && charts.is_empty() {
+            text += "Nothing was measured for it.\n\n";
         }
-        text += &format!("## {title}\n\n{part}");
-        for Chart { name, caption, .. } in own {
-            text += &format!("![{caption}](charts/{name}.png)\n*{caption}* ([SVG](charts/{name}.svg))\n\n");
-        }
+        text += &charts.iter().map(shown).collect::<String>();
     }
-    text + &drawings(pictures) + &sections::certificate(rows) + &unmeasured(rows)
+    text + &certificate::text(results) + &unmeasured(&results.rows)
 }
 
-/// A mesh of each domain.
-fn drawings(pictures: &[Picture]) -> String {
-    if pictures.is_empty() {
-        return String::new();
-    }
-    let one = |picture: &Picture| {
-        let Picture { name, title, caption } = picture;
-        format!("![{title}](charts/{name}.png)\n*{caption}.*\n\n")
+fn shown(chart: &Chart) -> String {
+    let Chart {
+        name, title, caption, ..
+    } = chart;
+    let more = if chart.is_picture {
+        String::new()
+    } else {
+        format!(" ([SVG](charts/{name}.svg))")
     };
-    "## Meshes\n\nMade again from their rows, bit for bit by their fingerprints.\n\n".to_string()
-        + &pictures.iter().map(one).collect::<String>()
+    format!("![{title}](charts/{name}.png)\n*{caption}*{more}\n\n")
 }
 
-const DEFAULT_QUESTION: &str = "How good and how small are the meshes that biting makes, as t and c_b vary?";
-
-fn main_findings(rows: &[Row]) -> String {
-    format!("## Main findings\n\n{}\n", finding_lines(rows))
-}
-
-/// One line for each thing asked, with its numbers.
-pub(super) fn finding_lines(rows: &[Row]) -> String {
-    // Beside peers there are too many rivals for a line each.
-    let mut compared = peers::peer_findings(rows);
-    if compared.is_empty() {
-        compared = duels::duel_findings(rows);
-    }
-    let others = sections::order_finding(rows)
-        .into_iter()
-        .chain(compared)
-        .chain(ranks::rank_finding(rows))
-        .chain(claims::claim_findings(rows));
-    bullets(headlines(rows).into_iter().chain(others))
+/// What was found, a sentence each.
+fn findings(results: &Results) -> Vec<String> {
+    let sections = results.sections.keys();
+    let of_sections = sections.flat_map(|section| (Entry::of(*section).findings)(results));
+    of_sections.chain(certificate::findings(results)).collect()
 }
 
 /// The findings as another page quotes them: methods are set side by side in a table, and orders left out.
-pub(super) fn findings_in_short(rows: &[Row]) -> String {
-    let mut lines = headlines(rows);
-    lines.extend(claims::claim_findings(rows));
-    bullets(lines) + &standings(rows)
+pub(super) fn findings_in_short(results: &Results) -> String {
+    let quoted = results
+        .sections
+        .keys()
+        .filter(|section| ![Section::Orders, Section::Duels].contains(section));
+    let lines = quoted.flat_map(|section| (Entry::of(*section).findings)(results));
+    bullets(lines.chain(certificate::findings(results))) + &standings(results)
 }
 
 fn bullets(lines: impl IntoIterator<Item = String>) -> String {
     lines.into_iter().map(|line| format!("* {line}\n")).collect()
 }
 
-/// What does not set one method against another.
-fn headlines(rows: &[Row]) -> Vec<String> {
-    let lines = [
-        angles::angle_finding(rows),
-        angles::hypothesis_finding(rows),
-        sections::size_finding(rows),
-        sections::fewest_finding(rows),
-        frontiers::frontier_finding(rows),
-        poisson::poisson_finding(rows),
-        adapt::adaptation_finding(rows),
-        corners::corner_finding(rows),
-        sections::certificate_finding(rows),
-        sections::time_finding(rows),
-    ];
-    lines.into_iter().flatten().chain(rules::rule_findings(rows)).collect()
-}
-
-fn what_was_run(rows: &[Row], name: &str) -> String {
+fn what_was_run(results: &Results, name: &str) -> String {
+    let rows = &results.rows[..];
     let count = |rows: &[&Row], outcome: Outcome| rows.iter().filter(|row| row.outcome == outcome).count();
     let line = |name: &str, rows: &[&Row]| {
         let share = |outcome| match count(rows, outcome) {
@@ -158,8 +75,9 @@ fn what_was_run(rows: &[Row], name: &str) -> String {
         std::iter::once(name.to_string()).chain(outcomes).collect::<Vec<_>>()
     };
     let head = |what| [what, "measured", "skipped", "declined", "failed"];
+    let of_group = |group: &str| rows.iter().filter(|row| row.group == group).collect::<Vec<_>>();
     let groups = first_seen(rows.iter().map(|row| row.group.as_str()));
-    let mut by_group: Vec<_> = groups.iter().map(|group| line(group, &of_group(rows, group))).collect();
+    let mut by_group: Vec<_> = groups.iter().map(|group| line(group, &of_group(group))).collect();
     by_group.push(line("all", &rows.iter().collect::<Vec<_>>()));
     let meshers = first_seen(rows.iter().map(|row| row.cell.mesher.as_str()));
     let by_mesher = meshers.iter().map(|mesher| {
@@ -177,16 +95,19 @@ fn what_was_run(rows: &[Row], name: &str) -> String {
         text += &table(&head("mesher"), &by_mesher.collect::<Vec<_>>());
     }
     text += &table(&head("domain"), &by_domain.collect::<Vec<_>>());
-    for (title, grid) in grids(rows) {
+    for (title, grid) in results.grids(Section::Angle) {
         let values = |values: &[f64]| {
             let names: Vec<String> = values.iter().map(|value| parameter(*value)).collect();
             names.join(", ")
         };
         let meant = meaning(&title, &grid.rows);
         let (ts, c_bs) = (values(&grid.ts), values(&grid.c_bs));
-        text += &format!("Biting's grid with spacing `{title}`{meant} over t = {ts}; c_b = {c_bs}.\n\n");
+        text += &format!(
+            "Grid of {} with spacing `{title}`{meant} over t = {ts}; c_b = {c_bs}.\n\n",
+            results.about
+        );
     }
-    for (title, rows) in by_spacing(&of_group(rows, "orders")) {
+    for (title, rows) in by_spacing(&results.of(Section::Orders)) {
         let meant = meaning(&title, &rows);
         let domains = first_seen(rows.iter().map(|row| row.cell.domain.as_str())).join("`, `");
         text += &format!("Orders with spacing `{title}`{meant} on `{domains}`.\n\n");
@@ -259,7 +180,7 @@ pub(super) const MOST_LINES: usize = 40;
 
 /// Cells that did not end measured, with reasons; skipped ones only as a count.
 fn unmeasured(rows: &[Row]) -> String {
-    let total = tally(rows);
+    let count = |outcome| rows.iter().filter(|row| row.outcome == outcome).count();
     let skipped = rows.iter().filter(|row| row.outcome == Outcome::Skipped);
     let expected = spread(skipped.map(|row| row.estimated_triangles).collect());
     let expected = expected.map(|spread| {
@@ -268,13 +189,13 @@ fn unmeasured(rows: &[Row]) -> String {
     });
     let mut text = format!(
         "## Cells not measured\n\nSkipped {} of {}{}. Declined {} of {}. Failed {} of {}.\n\n",
-        total.skipped,
-        total.cells,
+        count(Outcome::Skipped),
+        rows.len(),
         expected.unwrap_or_default(),
-        total.declined,
-        total.cells,
-        total.failed,
-        total.cells
+        count(Outcome::Declined),
+        rows.len(),
+        count(Outcome::Failed),
+        rows.len()
     );
     let ended = rows
         .iter()

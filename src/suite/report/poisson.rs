@@ -1,20 +1,19 @@
 //! The part of the page on what quality is for: errors, iterations and eigenvalues of a Poisson problem on each mesh.
 
-use super::findings::spread;
+use super::drawer::Drawer;
 use super::markdown::{number, table};
 use crate::suite::analysis::contest::Contest;
-use crate::suite::analysis::convergence::GROUP;
-use crate::suite::analysis::remarks::ours;
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
-use crate::suite::charts::YIELDS;
+use crate::suite::charts::{self, ChartError, YIELDS};
 use crate::suite::fem::Solution;
-use crate::suite::rows::numbers::first_seen;
+use crate::suite::rows::numbers::{first_seen, spread};
 use crate::suite::rows::record::Row;
+use crate::suite::run::plan::Section;
 
-/// The rows with a problem, split by what was solved where.
-pub(super) fn by_problem(rows: &[Row]) -> Vec<(String, Contest<'_>)> {
-    let is_own = |row: &&Row| row.cell.poisson.is_some() && row.group != GROUP;
-    let own: Vec<&Row> = rows.iter().filter(is_own).collect();
+/// The rows of the section, split by what was solved where.
+pub(super) fn by_problem(results: &Results) -> Vec<(String, Contest<'_>)> {
+    let own = results.of(Section::Poisson);
     let task = |row: &Row| format!("{:?} {} {}", row.cell.poisson, row.cell.domain, row.cell.spacing);
     let tasks: Vec<String> = own.iter().map(|row| task(row)).collect();
     let contest = |wanted: &str| {
@@ -47,8 +46,8 @@ fn yields(contest: &Contest, method: usize) -> [Option<f64>; YIELDS.len()] {
 }
 
 /// The part of the page: a table for each problem.
-pub(super) fn poisson(rows: &[Row]) -> String {
-    let all = by_problem(rows);
+pub(super) fn text(results: &Results) -> String {
+    let all = by_problem(results);
     if all.is_empty() {
         return String::new();
     }
@@ -94,14 +93,18 @@ fn has_solution(row: &Row) -> bool {
 }
 
 /// How far ours is from the smallest error per unknown, with the least and the most over the problems.
-pub(super) fn poisson_finding(rows: &[Row]) -> Option<String> {
-    let contests: Vec<Contest> = by_problem(rows).into_iter().map(|(_, contest)| contest).collect();
-    let own = ours(contests.first()?)?;
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    finding(results).into_iter().collect()
+}
+
+fn finding(results: &Results) -> Option<String> {
+    let contests: Vec<Contest> = by_problem(results).into_iter().map(|(_, contest)| contest).collect();
+    let own = contests.first()?.lead_of(&results.about)?;
     let label = &contests[0].methods[own].label;
     let part = |which: usize| {
         let shares: Vec<[f64; 3]> = contests
             .iter()
-            .filter_map(|contest| over_the_best(contest, which))
+            .filter_map(|contest| over_the_best(contest, &results.about, which))
             .collect();
         let range = |k: usize| {
             let over = spread(shares.iter().map(|share| share[k]).collect())?;
@@ -130,12 +133,24 @@ pub(super) fn poisson_finding(rows: &[Row]) -> Option<String> {
 }
 
 /// What ours, the median method and the worst give over what the best gives.
-fn over_the_best(contest: &Contest, which: usize) -> Option<[f64; 3]> {
-    let own = yields(contest, ours(contest)?)[which]?;
+fn over_the_best(contest: &Contest, about: &str, which: usize) -> Option<[f64; 3]> {
+    let own = yields(contest, contest.lead_of(about)?)[which]?;
     let all = contest
         .all()
         .into_iter()
         .filter_map(|method| yields(contest, method)[which]);
     let all = spread(all.collect())?;
     Some([own, all.median, all.most].map(|value| value / all.least))
+}
+
+/// Errors, iterations and eigenvalues of each Poisson problem.
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
+    for (number, (title, contest)) in by_problem(results).iter().enumerate() {
+        let caption = format!(
+            "{title}: errors scaled by the power of unknowns with which they fall, iterations and eigenvalues."
+        );
+        let stem = drawer.chart(&format!("poisson-{}", number + 1), &caption);
+        charts::poisson(title, contest, &stem)?;
+    }
+    Ok(())
 }

@@ -1,10 +1,11 @@
-//! The places of all methods by each yardstick, variants included: a rival's best variant may win where its default loses.
+//! The places of all methods by each yardstick, variants included: the best variant of another may win where its default loses.
 
-use super::duels::{YARDSTICKS, Yardstick};
+use super::duels::{YARDSTICKS, Yardstick, contests};
 use super::markdown::{number, table};
-use crate::suite::analysis::contest::{Contest, at_equal_count, at_equal_size};
-use crate::suite::analysis::remarks::ours;
-use crate::suite::rows::record::Row;
+use crate::suite::analysis::contest::Contest;
+use crate::suite::analysis::results::Results;
+use crate::suite::analysis::summary::measured;
+use crate::suite::rows::numbers::median;
 
 /// The methods by one yardstick, best first: median over the tasks that all of them measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +37,7 @@ impl Ranking {
 /// One ranking a yardstick; none where there is nobody to compare with.
 pub(super) fn rankings(contest: &Contest, is_count: bool) -> Vec<Ranking> {
     let common = contest.common(&contest.all());
-    if !contest.has_rivals() || common.is_empty() {
+    if !contest.has_several_meshers() || common.is_empty() {
         return Vec::new();
     }
     let wanted = YARDSTICKS.iter().filter(|by| by.at_equal_count || !is_count);
@@ -44,12 +45,8 @@ pub(super) fn rankings(contest: &Contest, is_count: bool) -> Vec<Ranking> {
 }
 
 /// The part of the page: a table for each way of asking.
-pub(super) fn ranks(rows: &[Row]) -> String {
-    let tables = [
-        ("equal edge length", at_equal_size(rows), false),
-        ("equal triangle count", at_equal_count(rows), true),
-    ];
-    tables
+pub(super) fn ranks(results: &Results) -> String {
+    contests(results)
         .iter()
         .map(|(title, contest, is_count)| rank_table(contest, &rankings(contest, *is_count), title))
         .collect()
@@ -75,9 +72,9 @@ fn rank_table(contest: &Contest, rankings: &[Ranking], title: &str) -> String {
 }
 
 /// Where the paper's method stands among all, variants included, and who is first, in a line.
-pub(super) fn rank_finding(rows: &[Row]) -> Option<String> {
-    let contest = at_equal_size(rows);
-    let ours = ours(&contest)?;
+pub(super) fn rank_finding(results: &Results) -> Option<String> {
+    let [(_, contest, _), _] = contests(results);
+    let ours = contest.lead_of(&results.about)?;
     if contest.leads().len() == contest.methods.len() {
         // Without variants the duels say all.
         return None;
@@ -117,6 +114,72 @@ fn ordinal(place: usize) -> String {
         _ => "th",
     };
     format!("{place}{ending}")
+}
+
+/// Who is best by each yardstick, task by task, and where ours stands; a line for each way of asking.
+pub(super) fn best_findings(results: &Results) -> Vec<String> {
+    contests(results)
+        .iter()
+        .filter_map(|(title, contest, is_count)| {
+            let wanted = YARDSTICKS.iter().filter(|by| by.at_equal_count || !is_count);
+            let parts: Vec<String> = wanted.filter_map(|by| best(contest, &results.about, by)).collect();
+            (!parts.is_empty()).then(|| {
+                format!(
+                    "**Who is best at {title}**, task by task over {} tasks, among our meshers and those outside: {}.",
+                    contest.tasks.len(),
+                    parts.join("; ")
+                )
+            })
+        })
+        .collect()
+}
+
+/// How often which mesher is first by one yardstick, variants counted as the mesher's, and the place of ours.
+fn best(contest: &Contest, about: &str, by: &Yardstick) -> Option<String> {
+    let ours = contest.lead_of(about)?;
+    let mut winners: Vec<(String, usize)> = Vec::new();
+    let (mut places, mut ratios) = (Vec::new(), Vec::new());
+    for task in 0..contest.tasks.len() {
+        let value = |method: usize| (by.value)(measured(contest.row(method, task)?)?);
+        let mut all: Vec<(usize, f64)> = contest.all().into_iter().filter_map(|k| Some((k, value(k)?))).collect();
+        all.sort_by(|a, b| (by.sign * b.1).total_cmp(&(by.sign * a.1)));
+        let Some(&(first, top)) = all.first() else { continue };
+        let name = contest.methods[first].label.clone();
+        match winners.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => winners.push((name, 1)),
+        }
+        if let Some(own) = value(ours) {
+            places.push(1.0 + all.iter().filter(|(_, other)| by.sign * other > by.sign * own).count() as f64);
+            // Nothing is a number of times nothing.
+            if top != 0.0 {
+                ratios.push(own / top);
+            }
+        }
+    }
+    winners.sort_by_key(|winner| std::cmp::Reverse(winner.1));
+    let names: Vec<String> = winners
+        .iter()
+        .map(|(name, count)| format!("{name} on {count}"))
+        .collect();
+    let times = median(ratios).map_or_else(String::new, |ratio| format!(", with {} times the best", number(ratio)));
+    let standing = median(places).map_or_else(String::new, |place| {
+        format!(
+            " ({} is {} in the median{times})",
+            contest.methods[ours].label,
+            place_of(place)
+        )
+    });
+    (!names.is_empty()).then(|| format!("{}: {}{standing}", by.name, names.join(", ")))
+}
+
+/// A place that may lie between two.
+fn place_of(place: f64) -> String {
+    if place.fract() == 0.0 {
+        ordinal(place as usize)
+    } else {
+        format!("{place}th")
+    }
 }
 
 #[cfg(test)]

@@ -4,11 +4,14 @@
 //! mesh by the paper's rule is set beside three by the other: of the same t and c_b; of twice the t at the same c_b, where f may
 //! grow twice as fast; and of twice t and c_b, where f stays and circles are twice as large.
 
-use super::findings::of_group;
+use super::drawer::Drawer;
 use super::markdown::{degrees, number, parameter, table};
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{measured, parameter as named};
+use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::numbers::{distinct, first_seen, median};
 use crate::suite::rows::record::{Report, Row};
+use crate::suite::run::plan::Section;
 use crate::theory::{Promises, Rule};
 
 /// How a mesh by the rule of the later point relates to one by the paper's.
@@ -108,8 +111,8 @@ fn is_partner(row: &Row, other: &Row, way: &Way) -> bool {
 }
 
 /// A line for each way, over all that were asked for in it.
-pub(super) fn rule_findings(rows: &[Row]) -> Vec<String> {
-    let rows = of_group(rows, "rules");
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    let rows = results.of(Section::Rules);
     let told = |way: &Way| {
         let pairs = Pairs::of(&rows, way, |_| true);
         let angles = pairs.medians(|report| report.statistics.min_angle_free_deg);
@@ -134,8 +137,8 @@ pub(super) fn rule_findings(rows: &[Row]) -> Vec<String> {
 }
 
 /// A table for each way, with a line for each order, t and c_b by the paper's rule.
-pub(super) fn rules(rows: &[Row]) -> String {
-    let rows = of_group(rows, "rules");
+pub(super) fn text(results: &Results) -> String {
+    let rows = results.of(Section::Rules);
     let papers: Vec<&Row> = rows.iter().copied().filter(|row| !is_later(row)).collect();
     let orders = first_seen(papers.iter().filter_map(|row| named(row, "order")));
     let (ts, c_bs) = (
@@ -207,4 +210,14 @@ fn line(pairs: &Pairs, way: &Way, order: &str, t: f64, c_b: f64) -> Vec<String> 
         number(pairs.triangles()),
         number(pairs.seconds()),
     ]
+}
+
+/// Smallest angles by either rule against t.
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
+    let rows = results.of(Section::Rules);
+    if rows.is_empty() {
+        return Ok(());
+    }
+    let caption = "Smallest angles by either rule of who bites whom, against t, with the bound of each.";
+    charts::rules(&rows, &drawer.chart("rules", caption))
 }

@@ -1,17 +1,14 @@
 //! One table that sets meshers side by side, for pages that quote the findings.
 
-use super::duels::YARDSTICKS;
+use super::duels::{YARDSTICKS, contests};
 use super::markdown::{number, table};
-use crate::suite::analysis::contest::{Contest, at_equal_count, at_equal_size};
-use crate::suite::rows::record::Row;
+use crate::suite::analysis::contest::Contest;
+use crate::suite::analysis::results::Results;
 
 /// One method of each mesher by every yardstick, the best in bold; empty where one mesher ran alone.
-pub(super) fn standings(rows: &[Row]) -> String {
-    let contests = [
-        ("edge length", at_equal_size(rows), false),
-        ("triangle count", at_equal_count(rows), true),
-    ];
-    let asked = contests.iter().find(|(_, contest, _)| contest.has_rivals());
+pub(super) fn standings(results: &Results) -> String {
+    let contests = contests(results);
+    let asked = contests.iter().find(|(_, contest, _)| contest.has_several_meshers());
     asked.map_or_else(String::new, |(title, contest, is_count)| {
         side_by_side(contest, title, *is_count)
     })
@@ -69,7 +66,7 @@ fn side_by_side(contest: &Contest, title: &str, is_count: bool) -> String {
         format!(" (left out: {}, with fewer than half)", others.join(", "))
     };
     format!(
-        "\nAt equal {title}, by medians over the {} of {} tasks that all of these measured{left_out}:\n\n",
+        "\nAt {title}, by medians over the {} of {} tasks that all of these measured{left_out}:\n\n",
         common.len(),
         contest.tasks.len()
     ) + table(&head, &lines).trim_end()

@@ -1,16 +1,22 @@
 //! Findings against numbers worked out by hand, and the page as files.
 
-mod adapt;
-mod outside;
-mod rivals;
+mod adaptation;
+mod contests;
+mod peers;
 mod rules;
 
-use super::findings::{broken_checks, claims, fewest, margins, of_group, order_findings, slopes, tally};
-use super::fixture::{lines, measured, row, sweep};
-use super::{ReportError, page, sections, write};
+use super::angle::margins;
+use super::certificate::{self, broken_checks, claim_tallies};
+use super::fewest::fewest;
+use super::fixture::{leave, measured, results, row, sweep};
+use super::orders::order_findings;
+use super::time::slopes;
+use super::{ReportError, page, write};
 use crate::meshers::{Budget, Request};
+use crate::suite::analysis::results::PLAN;
 use crate::suite::analysis::summary::{Grid, frontier};
-use crate::suite::rows::record::{Outcome, Provenance, Row};
+use crate::suite::rows::record::{Outcome, Provenance, ROWS, Row};
+use crate::suite::run::plan::Section;
 use crate::suite::run::prepare::Store;
 use crate::suite::run::{measure, runner};
 use crate::theory::Claim;
@@ -62,9 +68,8 @@ fn pairs_need_all_their_domains() {
 fn the_frontier_keeps_what_nothing_beats() {
     let rows = sweep();
     let grid = Grid::of(
-        of_group(&rows, "grid")
-            .into_iter()
-            .filter(|row| row.cell.spacing == "lfs"),
+        rows.iter()
+            .filter(|row| row.group == "grid" && row.cell.spacing == "lfs"),
     );
     let pairs = grid.pairs();
     let best = frontier(&pairs);
@@ -119,7 +124,7 @@ fn slopes_of_a_power_law() {
         }
         rows.push(timed);
     }
-    let slopes = slopes(&rows);
+    let slopes = slopes(&results(&rows));
     assert_eq!(slopes[0].name, "whole mesh");
     assert!((slopes[0].slope.unwrap() - 1.25).abs() < 1e-12);
     assert!((slopes[1].slope.unwrap() - 1.0).abs() < 1e-12);
@@ -129,17 +134,18 @@ fn slopes_of_a_power_law() {
 #[test]
 fn a_broken_bound_is_listed_with_its_place() {
     let rows = three_domains();
-    let angle = claims(&rows)
+    let angle = claim_tallies(&rows)
         .into_iter()
         .find(|tally| tally.claim == Claim::MinAngle)
         .unwrap();
     assert_eq!((angle.guaranteed, angle.measured), ((5, 4), (0, 0)));
-    let broken = broken_checks(&rows, true);
+    let results = results(&rows);
+    let broken = broken_checks(&results, true);
     assert_eq!(broken.len(), 1);
     assert_eq!(broken[0][1], "c");
     assert!(broken[0].contains(&"(0.250, 0.750)".to_string()) && broken[0].contains(&"36.00°".to_string()));
-    assert!(broken_checks(&rows, false).is_empty());
-    let finding = sections::certificate_finding(&rows).unwrap();
+    assert!(broken_checks(&results, false).is_empty());
+    let finding = &certificate::findings(&results)[0];
     assert!(finding.contains("holds in 4 of 5 meshes"), "{finding}");
 }
 
@@ -148,8 +154,7 @@ fn a_failure_shows_on_the_page() {
     let mut rows = three_domains();
     rows[4].outcome = Outcome::Failed;
     rows[4].reason = Some("no triangle | at (0.1, 0.2)".into());
-    assert_eq!(tally(&rows).failed, 1);
-    let text = page::page(&rows, &[], &[], &page::Heading::default());
+    let text = page::page(&results(&rows), &[(Section::Size, Vec::new())], "made-up");
     assert!(text.contains("| grid | 5 of 6 | 0 | 0 | 1 of 6 |"), "{text}");
     assert!(text.contains("| b | 1 of 2 | 0 | 0 | 1 of 2 |"), "{text}");
     assert!(
@@ -162,8 +167,15 @@ fn a_failure_shows_on_the_page() {
 
 #[test]
 fn a_page_of_nothing_measured() {
-    let text = page::page(&[cell("a", 0.25, 1.0)], &[], &[], &page::Heading::default());
-    assert!(text.contains("Skipped 1 of 1") && !text.contains("NaN"), "{text}");
+    let text = page::page(
+        &results(&[cell("a", 0.25, 1.0)]),
+        &[(Section::Fewest, Vec::new())],
+        "made-up",
+    );
+    assert!(
+        text.contains("Skipped 1 of 1") && text.contains("Nothing was measured for it.") && !text.contains("NaN"),
+        "{text}"
+    );
 }
 
 /// A row measured in earnest.
@@ -193,14 +205,14 @@ fn in_earnest(domain: &str) -> Row {
 fn a_mesh_is_drawn_again_if_it_is_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let mut rows = vec![in_earnest("l-shape"), cell("no-such-domain", 0.25, 0.5)];
-    std::fs::write(folder.path().join("rows.jsonl"), lines(&rows)).unwrap();
+    leave(&rows, folder.path());
     let page = std::fs::read_to_string(write(folder.path()).unwrap()).unwrap();
     assert!(page.contains("(charts/mesh-l-shape.png)"), "{page}");
     assert!(folder.path().join("charts/mesh-l-shape.png").is_file());
     if let Some(report) = &mut rows[0].report {
         report.fingerprint = "another".into();
     }
-    std::fs::write(folder.path().join("rows.jsonl"), lines(&rows)).unwrap();
+    leave(&rows, folder.path());
     let page = std::fs::read_to_string(write(folder.path()).unwrap()).unwrap();
     assert!(!page.contains("charts/mesh-"), "{page}");
 }
@@ -208,7 +220,7 @@ fn a_mesh_is_drawn_again_if_it_is_the_same() {
 #[test]
 fn no_rows_are_an_error() {
     let folder = tempfile::tempdir().unwrap();
-    assert!(matches!(write(folder.path()), Err(ReportError::Rows(_))));
+    assert!(matches!(write(folder.path()), Err(ReportError::Results(_))));
 }
 
 /// Every file under `folder`, but the rows, by its name.
@@ -217,7 +229,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     for part in [folder.to_path_buf(), folder.join("charts")] {
         for entry in std::fs::read_dir(part).unwrap().map(|entry| entry.unwrap().path()) {
             let name = entry.file_name().unwrap().to_string_lossy().into_owned();
-            if entry.is_file() && name != "rows.jsonl" {
+            if entry.is_file() && ![ROWS, PLAN].contains(&name.as_str()) {
                 found.insert(name, std::fs::read(&entry).unwrap());
             }
         }
@@ -232,8 +244,7 @@ fn the_same_rows_in_any_order_give_the_same_bytes() {
     let mut written = Vec::new();
     for name in ["a/sweep", "b/sweep"] {
         let folder = folder.path().join(name);
-        std::fs::create_dir_all(&folder).unwrap();
-        std::fs::write(folder.join("rows.jsonl"), lines(&rows)).unwrap();
+        leave(&rows, &folder);
         write(&folder).unwrap();
         written.push(files(&folder));
         rows.reverse();

@@ -1,4 +1,4 @@
-//! Quantiles, fitted lines, and the different values of some.
+//! Quantiles, spreads, fitted lines, and the different values of some.
 
 /// The `q`-quantile of `values` (0 ≤ q ≤ 1), linear between neighbours; absent for no values. NaN sorts last.
 pub fn quantile(mut values: Vec<f64>, q: f64) -> Option<f64> {
@@ -13,6 +13,29 @@ pub fn quantile(mut values: Vec<f64>, q: f64) -> Option<f64> {
 /// The middle value, the mean of the two middle ones for an even count; absent for no values.
 pub fn median(values: Vec<f64>) -> Option<f64> {
     quantile(values, 0.5)
+}
+
+/// Least, middle and most of some numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// How many there are.
+    pub count: usize,
+    /// The least of them.
+    pub least: f64,
+    /// Their median.
+    pub median: f64,
+    /// The most.
+    pub most: f64,
+}
+
+/// The spread of `values`; absent for none.
+pub fn spread(values: Vec<f64>) -> Option<Spread> {
+    Some(Spread {
+        count: values.len(),
+        least: quantile(values.clone(), 0.0)?,
+        most: quantile(values.clone(), 1.0)?,
+        median: median(values)?,
+    })
 }
 
 /// y = slope · x + intercept.

@@ -2,6 +2,8 @@
 //!
 //! ```toml
 //! question = "How far above the bound is the smallest angle?"
+//! about = "biting"               # the mesher the question is about: default the first one named
+//! sections = ["angle", "size"]   # of the page, for groups that name none: default by what they vary (`--dry-run` tells)
 //!
 //! [budget]                       # of each cell; a cell above it is written as skipped, with the estimate
 //! triangles = 150_000
@@ -31,8 +33,11 @@
 //! adapt = [{ eps = 1e-3, rounds = 6 }]   # without it the spacing is as it says; with it adapted to u of that problem first
 //! timed = false                  # default; a timed cell runs alone, `repeats` times
 //! repeats = 3                    # default
+//! sections = ["angle"]           # the sections of the page that show its cells; groups of one name share theirs
 //! quick = { t = [0.25] }         # lists that replace those above under --quick; without it the group is left out
 //! ```
+//!
+//! [`Section`] has the sections there are.
 //!
 //! Another kind of experiment has batteries in place of groups: many small cases, tallied ([`Battery`]).
 //!
@@ -58,13 +63,16 @@
 mod battery;
 mod group;
 mod number;
+mod section;
 #[cfg(test)]
 mod tests;
 
 pub use battery::Battery;
 pub use group::{Group, Method};
 pub use number::{Number, fraction};
+pub use section::Section;
 
+use crate::suite::rows::numbers::first_seen;
 use crate::suite::rows::record::Cell;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -94,6 +102,10 @@ pub struct Plan {
     pub text: String,
     /// What the experiment asks.
     pub question: String,
+    /// The mesher that it is about: what the page says of "ours" is about this one.
+    pub about: String,
+    /// The sections of its page, each with the names of the groups whose rows it shows.
+    pub sections: BTreeMap<Section, BTreeSet<String>>,
     /// Limits of each cell.
     pub budget: CellBudget,
     /// What must come out.
@@ -181,6 +193,10 @@ pub struct PlannedCell {
 struct File {
     question: String,
     #[serde(default)]
+    about: Option<String>,
+    #[serde(default)]
+    sections: Option<Vec<Section>>,
+    #[serde(default)]
     budget: CellBudget,
     #[serde(default)]
     expect: Expectations,
@@ -190,6 +206,15 @@ struct File {
     group: Vec<Group>,
     #[serde(default)]
     battery: Vec<Battery>,
+}
+
+/// The mesher that a plan is about: the one it names, which must be in a cell, or else that of the first cell.
+fn mesher_in_question(named: Option<String>, cells: &[PlannedCell]) -> Result<String, String> {
+    let meshers = first_seen(cells.iter().map(|planned| planned.cell.mesher.as_str()));
+    let about = named.or_else(|| meshers.first().map(ToString::to_string));
+    about
+        .filter(|about| meshers.contains(&about.as_str()))
+        .ok_or_else(|| format!("`about` is none of the meshers of its groups: {}", meshers.join(", ")))
 }
 
 impl Plan {
@@ -212,6 +237,8 @@ impl Plan {
             .map_or_else(|| "experiment".into(), |stem| stem.to_string_lossy().into_owned());
         let File {
             question,
+            about,
+            sections,
             budget,
             expect,
             methods,
@@ -221,21 +248,48 @@ impl Plan {
         for each in &mut group {
             each.resolve(&methods).map_err(error)?;
         }
-        let plan = Self {
+        let mut plan = Self {
             name,
             file: file.to_owned(),
             text,
             question,
+            about: String::new(),
+            sections: BTreeMap::new(),
             budget,
             expect,
             groups: group,
             batteries: battery,
         };
         if plan.batteries.is_empty() {
-            plan.cells()?;
+            let cells = plan.cells()?;
+            plan.about = mesher_in_question(about, &cells).map_err(error)?;
+            plan.sections = plan.sections_of(&cells, sections.as_deref());
         }
         plan.check_batteries().map_err(error)?;
         Ok(plan)
+    }
+
+    /// Which groups each section of the page shows: those that the groups name, else those that the plan names, else what
+    /// follows from the cells.
+    fn sections_of(&self, cells: &[PlannedCell], of_plan: Option<&[Section]>) -> BTreeMap<Section, BTreeSet<String>> {
+        let mut sections: BTreeMap<Section, BTreeSet<String>> = BTreeMap::new();
+        let names: BTreeSet<&str> = self.groups.iter().map(|group| group.name.as_str()).collect();
+        for name in names {
+            let groups = self.groups.iter().filter(|group| group.name == name);
+            let named: Vec<&[Section]> = groups.filter_map(|group| group.sections.as_deref()).collect();
+            let shown = match (named.is_empty(), of_plan) {
+                (false, _) => named.concat().into_iter().collect(),
+                (true, Some(sections)) => sections.iter().copied().collect(),
+                (true, None) => {
+                    let own = cells.iter().filter(|planned| planned.group == name);
+                    Section::defaults(&own.map(|planned| &planned.cell).collect::<Vec<_>>(), &self.about)
+                }
+            };
+            for section in shown {
+                sections.entry(section).or_default().insert(name.to_owned());
+            }
+        }
+        sections
     }
 
     fn check_batteries(&self) -> Result<(), String> {

@@ -1,6 +1,7 @@
 //! The two rules of who bites whom, by hand.
 
-use super::super::rules::{rule_findings, rules};
+use super::super::fixture::results;
+use super::super::rules;
 use super::{Row, measured, row};
 use serde_json::json;
 
@@ -21,7 +22,7 @@ fn meshes_are_paired_at_equal_t_and_at_equal_guaranteed_angle() {
         // Its doubles are not there.
         bitten("earlier", 0.5, 0.5, 1000),
     ];
-    let findings = rule_findings(&rows);
+    let findings = rules::findings(&results(&rows));
     assert_eq!(findings.len(), 3);
     for (finding, [pairs, triangles]) in
         findings
@@ -33,11 +34,11 @@ fn meshes_are_paired_at_equal_t_and_at_equal_guaranteed_angle() {
             "{finding}"
         );
     }
-    let text = rules(&rows);
+    let text = rules::text(&results(&rows));
     assert_eq!(text.matches("### ").count(), 3);
     assert!(
         text.contains("| fifo | 0.25 : 0.5 | 0.5 : 1 | 1 of 1 | 14.48° |"),
         "{text}"
     );
-    assert!(rule_findings(&rows[..1]).is_empty() && rules(&rows[1..4]).is_empty());
+    assert!(rules::findings(&results(&rows[..1])).is_empty() && rules::text(&results(&rows[1..4])).is_empty());
 }

@@ -6,7 +6,7 @@ use crate::suite::fem::Problem;
 use crate::suite::rows::adapted::Adapt;
 use crate::suite::rows::record::Cell;
 use crate::suite::rows::record::parameter_text;
-use crate::suite::run::plan::{CellBudget, Number, PlannedCell};
+use crate::suite::run::plan::{CellBudget, Number, PlannedCell, Section};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -14,8 +14,11 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Group {
-    /// Its name in the rows; the charts know `grid`, `orders` and `time`.
+    /// Its name in the rows.
     pub name: String,
+    /// The sections of the page that show its rows, where they are not the plan's.
+    #[serde(default)]
+    pub sections: Option<Vec<Section>>,
     /// Gallery names or files.
     pub domains: Vec<String>,
     /// Spacings before cap and limiting.

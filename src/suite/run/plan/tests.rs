@@ -134,6 +134,16 @@ fn mistakes_are_named_with_file_and_place() {
         ("t = [0.25, \"1/3\"]", "t = []", "group `grid` has an empty list"),
         ("t = [0.25, \"1/3\"]", "t = [0.25, 0.25]", "twice"),
         ("timed = true", "timd = true", "line 25"),
+        (
+            "timed = true",
+            "timed = true\nsections = [\"angel\"]",
+            "`angel`, expected one of `angle`, `size`",
+        ),
+        (
+            "question",
+            "about = \"nibbling\"\nquestion",
+            "none of the meshers of its groups: biting",
+        ),
         ("question", "qestion", "line 2"),
         ("timed = true", "timed = true\nrepeats = 0", "at least 1"),
         ("mesher = \"biting\"", "", "say `mesher`"),
@@ -169,4 +179,59 @@ fn lists_that_combine_to_more_cells_than_memory_holds_are_refused() {
         problem,
         "the lists combine to 8000000000 cells; at most 1000000 are run"
     );
+}
+
+#[test]
+fn the_page_shows_what_is_named_or_else_what_varies() {
+    let shown = |text: &str| {
+        let sections = read(text).expect("a plan").sections;
+        let line = |(section, groups): (&Section, &BTreeSet<String>)| {
+            let groups: Vec<&str> = groups.iter().map(String::as_str).collect();
+            format!("{section}: {}", groups.join(" "))
+        };
+        sections.iter().map(line).collect::<Vec<_>>()
+    };
+    assert_eq!(shown(PLAN), ["angle: grid", "size: grid", "fewest: grid"]);
+    let of_plan = PLAN.replacen("question", "sections = [\"size\"]\nquestion", 1);
+    assert_eq!(shown(&of_plan), ["size: grid time"]);
+    let of_group = of_plan.replacen("timed = true", "sections = [\"time\", \"orders\"]\ntimed = true", 1);
+    assert_eq!(shown(&of_group), ["size: grid", "orders: time", "time: time"]);
+    for (from, to, expected) in [
+        (
+            "spacings = [\"lfs\"]",
+            "spacings = [\"lfs\", \"uniform:1\"]",
+            "time: time",
+        ),
+        ("{ order = \"fifo\" }", "{ order = \"fifo\" }, {}", "orders: time"),
+        ("{ order = \"fifo\" }", "{ rule = \"later\" }, {}", "rules: time"),
+        ("{ order = \"fifo\" }", "{ corners = \"bite\" }, {}", "corners: time"),
+        ("timed = true", "threads = [1, 2]", "threads: time"),
+        ("timed = true", "poisson = \"corner\"", "poisson: time"),
+        (
+            "timed = true",
+            "poisson = \"corner\"\nadapt = [{ eps = 0.01 }]",
+            "adaptation: time",
+        ),
+    ] {
+        let sections = shown(&PLAN.replacen(from, to, 1));
+        assert!(sections.contains(&expected.to_owned()), "{to}: {sections:?}");
+    }
+    let methods = "methods = [{ mesher = \"biting\" }, { mesher = \"triangle\" }]";
+    let contest = shown(&PLAN.replacen("mesher = \"biting\"", methods, 1));
+    assert_eq!(
+        contest[3..],
+        ["methods: grid", "peers: grid", "tasks: grid", "duels: grid"]
+    );
+}
+
+#[test]
+fn a_plan_is_about_the_mesher_it_names_or_its_first() {
+    let two = PLAN.replacen(
+        "mesher = \"biting\"",
+        "methods = [{ mesher = \"another\" }, { mesher = \"biting\" }]",
+        1,
+    );
+    assert_eq!(read(&two).expect("a plan").about, "another");
+    let named = two.replacen("question", "about = \"biting\"\nquestion", 1);
+    assert_eq!(read(&named).expect("a plan").about, "biting");
 }

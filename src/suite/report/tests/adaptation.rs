@@ -1,10 +1,10 @@
 //! Slopes against errors that follow a power of the vertices, on the page, in the finding and as expectations.
 
-use super::super::adapt::{adaptation, adaptation_finding};
-use super::super::fixture::{measured, row};
-use super::super::poisson;
+use super::super::adaptation;
+use super::super::fixture::{measured, results, row};
 use crate::suite::analysis::convergence::convergence;
 use crate::suite::analysis::expect::findings;
+use crate::suite::analysis::results::Results;
 use crate::suite::fem::{Solution, Solver};
 use crate::suite::rows::adapted::{Adapt, Round};
 use crate::suite::rows::record::Row;
@@ -72,7 +72,7 @@ fn rows() -> Vec<Row> {
 #[test]
 fn slopes_are_those_of_the_powers() {
     let rows = rows();
-    let [[adapted, uniform]] = &convergence(&rows)[..] else {
+    let [[adapted, uniform]] = &convergence(&rows.iter().collect::<Vec<_>>())[..] else {
         panic!("one problem on one domain");
     };
     assert!((adapted.slope().unwrap() + 1.0).abs() < 1e-9 && (uniform.slope().unwrap() + 2.0 / 3.0).abs() < 1e-9);
@@ -81,7 +81,7 @@ fn slopes_are_those_of_the_powers() {
         ("adapted".into(), "uniform, 1 missing".into())
     );
     assert!((uniform.at(27_000.0).unwrap() - 1.0 / 900.0).abs() < 1e-9);
-    let told = adaptation_finding(&rows).unwrap();
+    let told = &adaptation::findings(&results(&rows))[0];
     // 64 000^(−2/3) = 1/1600 against 10 / 64 000.
     assert!(
         told.contains(
@@ -92,8 +92,8 @@ fn slopes_are_those_of_the_powers() {
 }
 
 #[test]
-fn the_page_has_both_lines_and_the_rounds_and_other_parts_leave_them_out() {
-    let page = adaptation(&rows());
+fn the_page_has_both_lines_and_the_rounds() {
+    let page = adaptation::text(&results(&rows()));
     for part in [
         "### corner on l-shape",
         "| adapted | 3 | 1000 to 64000 |",
@@ -102,8 +102,6 @@ fn the_page_has_both_lines_and_the_rounds_and_other_parts_leave_them_out() {
     ] {
         assert!(page.contains(part), "{part}: {page}");
     }
-    assert_eq!(adaptation(&[]), "");
-    assert!(poisson::by_problem(&rows()).is_empty());
 }
 
 #[test]
@@ -113,7 +111,11 @@ fn an_expected_slope_holds_or_breaks() {
             adapted_slope: Some(SlopeRange { least, most }),
             ..Expectations::default()
         };
-        findings(&expect, &rows())[0].clone()
+        findings(&Results {
+            expect,
+            ..results(&rows())
+        })[0]
+            .clone()
     };
     assert!(judged(-1.2, -0.9).holds && !judged(-0.99, -0.9).holds && !judged(-1.2, -1.01).holds);
     assert_eq!(judged(-1.2, -0.9).found, "-1.000");

@@ -1,14 +1,19 @@
 //! The part of the page on adaptation: error against vertices, beside uniform refinement, with fitted slopes.
 
+use super::drawer::Drawer;
 use super::markdown::{number, table};
-use crate::suite::analysis::convergence::{self, Convergence, GROUP, convergence};
+use crate::suite::analysis::convergence::{self, Convergence, convergence};
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
+use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::adapted::Round;
 use crate::suite::rows::record::Row;
+use crate::suite::run::plan::Section;
 
 /// The part of the page: a table for each problem.
-pub(super) fn adaptation(rows: &[Row]) -> String {
-    let all = convergence(rows);
+pub(super) fn text(results: &Results) -> String {
+    let rows = results.of(Section::Adaptation);
+    let all = convergence(&rows);
     if all.is_empty() {
         return String::new();
     }
@@ -30,7 +35,7 @@ pub(super) fn adaptation(rows: &[Row]) -> String {
         ];
         let lines: Vec<_> = both.iter().map(line).collect();
         text += &format!("### {title}\n\n{}", table(&head, &lines));
-        text += &rounds(rows, title);
+        text += &rounds(&rows, title);
     }
     text
 }
@@ -49,10 +54,8 @@ fn line(convergence: &Convergence) -> Vec<String> {
 }
 
 /// The rounds to the finest adapted mesh.
-fn rounds(rows: &[Row], title: &str) -> String {
-    let own = rows
-        .iter()
-        .filter(|row| row.group == GROUP && convergence::title(row) == title);
+fn rounds(rows: &[&Row], title: &str) -> String {
+    let own = rows.iter().filter(|row| convergence::title(row) == title);
     let adapted = own.filter_map(|row| Some((row.cell.adapt?, measured(row)?)));
     let Some((adapt, report)) = adapted.max_by_key(|(_, report)| report.statistics.vertices) else {
         return String::new();
@@ -81,7 +84,11 @@ fn rounds(rows: &[Row], title: &str) -> String {
 }
 
 /// The slopes, and what adaptation saves where both end.
-pub(super) fn adaptation_finding(rows: &[Row]) -> Option<String> {
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    finding(results).into_iter().collect()
+}
+
+fn finding(results: &Results) -> Option<String> {
     let one = |[adapted, uniform]: &[Convergence; 2]| {
         let most = adapted.points.last()?.0.min(uniform.points.last()?.0);
         let times = uniform.at(most)? / adapted.at(most)?;
@@ -93,7 +100,22 @@ pub(super) fn adaptation_finding(rows: &[Row]) -> Option<String> {
             number(times)
         ))
     };
-    let told: Vec<String> = convergence(rows).iter().filter_map(one).collect();
+    let told: Vec<String> = convergence(&results.of(Section::Adaptation))
+        .iter()
+        .filter_map(one)
+        .collect();
     let told = told.join("; ");
     (!told.is_empty()).then(|| format!("**L2 error against vertices**, by lines fitted to logarithms: {told}."))
+}
+
+/// L2 errors against vertices, adapted and uniform.
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
+    for both in convergence(&results.of(Section::Adaptation)) {
+        let title = &both[0].title;
+        let caption = format!("{title}: relative L2 error against vertices, adapted and uniform.");
+        let name = format!("adapt-{}", title.replace(' ', "-"));
+        let stem = drawer.chart(&name, &caption);
+        charts::adaptation(&both, &stem)?;
+    }
+    Ok(())
 }

@@ -1,9 +1,7 @@
 //! Pages with meshers outside this crate, with a frontier, and with Poisson problems, against numbers worked out by hand.
 
-use super::super::fixture::{asked, done};
-use super::super::frontiers::{by_domain, frontier_finding, frontiers};
-use super::super::peers::{peer_findings, peers};
-use super::super::poisson::{poisson, poisson_finding};
+use super::super::fixture::{asked, done, results};
+use super::super::{duels, frontier, peers, poisson, tasks};
 use crate::suite::fem::{Solution, Solver, Spectrum};
 use crate::suite::rows::record::{Outcome, Outside, Row};
 use serde_json::{Value, json};
@@ -52,7 +50,8 @@ fn with_peers() -> Vec<Row> {
 #[test]
 fn peers_are_told_with_versions_and_what_they_break() {
     let rows = with_peers();
-    let page = peers(&rows);
+    let results = results(&rows);
+    let page = peers::text(&results);
     let gmsh = starting(&page, "| [gmsh]");
     assert_eq!(
         gmsh,
@@ -64,32 +63,32 @@ fn peers_are_told_with_versions_and_what_they_break() {
         starting(&page, "| [netgen]"),
         ["| [netgen](../../baselines/netgen/README.md) |  | 0 | 0 | 0 | 2 | –, –, – | – |"]
     );
-    let tables = starting(&page, "### ");
-    assert_eq!(
-        tables,
-        [
-            "### a, `lfs`, at equal edge length",
-            "### b, `lfs`, at equal edge length",
-            "### What becomes of the boundary"
-        ]
+    assert_eq!(starting(&page, "### "), ["### What becomes of the boundary"]);
+    assert!(
+        starting(&page, "| bamg |")[0].starts_with("| bamg | 0 of 2 | a, b |"),
+        "{page}"
     );
+    assert_eq!(starting(&page, "| gmsh |"), ["| gmsh | 2 of 2 | – | – |"]);
+    let tasks = tasks::text(&results);
+    let tables = [
+        "### a, `lfs`, at equal edge length",
+        "### b, `lfs`, at equal edge length",
+    ];
+    assert_eq!(starting(&tasks, "### "), tables);
     // A mesh that is none of the domain is shown with its numbers and what it breaks; memory and repeats as they were told.
-    let broken = starting(&page, "| bamg |");
+    let broken = starting(&tasks, "| bamg |");
     assert!(
         broken[0].contains("| 500 |") && broken[0].ends_with("failed: its mesh breaks input-vertices |"),
         "{broken:?}"
     );
-    assert!(broken[2].starts_with("| bamg | 0 of 2 | a, b |"), "{broken:?}");
-    assert_eq!(starting(&page, "| gmsh |")[2], "| gmsh | 2 of 2 | – | – |");
-    let told = starting(&page, "| gmsh |");
+    let told = starting(&tasks, "| gmsh |");
     assert!(told[0].contains("| -50 to +25 % | 50.0 (30.0) |"), "{told:?}");
-    assert!(starting(&page, "| netgen |")[0].contains("skipped: not installed"));
-    assert_eq!(peers(&rows[..1]), "", "without peers there is nothing to tell");
+    assert!(starting(&tasks, "| netgen |")[0].contains("skipped: not installed"));
 }
 
 #[test]
 fn who_is_best_is_counted_task_by_task() {
-    let told = peer_findings(&with_peers());
+    let told = duels::findings(&results(&with_peers()));
     assert_eq!(told.len(), 1);
     // Smallest angles: on a gmsh has 34.5, on b mmg has 26.5; ours is 2nd on both, with 24.5/34.5 and 24.5/26.5 of the best.
     let expected = "smallest angle (°): gmsh on 1, mmg on 1 (biting is 2nd in the median, with 0.817 times the best)";
@@ -125,7 +124,8 @@ fn biting_is_measured_by_triangle_at_equal_angle() {
         point("b", "triangle", angle(20.0), 20.0, 1.0),
         point("b", "triangle", angle(25.0), 25.0, 2.0),
     ];
-    let families = by_domain(&rows);
+    let results = results(&rows);
+    let families = frontier::by_domain(&results);
     assert_eq!(families.len(), 3, "a, b, and both");
     let labels: Vec<&str> = families[0].1.iter().map(|family| family.label.as_str()).collect();
     assert_eq!(
@@ -134,7 +134,7 @@ fn biting_is_measured_by_triangle_at_equal_angle() {
         "what is swept is no family"
     );
     // At 20° biting has 6 on a and 4 on b where Triangle has 1.5 and 1: four times on both.
-    let told = frontier_finding(&rows).expect("a finding");
+    let told = &frontier::findings(&results)[0];
     assert!(
         told.contains("at 20° 4.00 times in the median over 2 domains"),
         "{told}"
@@ -148,7 +148,7 @@ fn biting_is_measured_by_triangle_at_equal_angle() {
         told.contains("nearest on all of them is biting, t = 0.25, c_b = 0.75 (2.00 times)"),
         "{told}"
     );
-    let page = frontiers(&rows);
+    let page = frontier::text(&results);
     let first = starting(&page, "| a |");
     assert!(
         first.iter().any(|line| line.contains("| 6.00 (4.00) | 1.50 |")),
@@ -185,7 +185,8 @@ fn errors_are_compared_per_unknown() {
         .into_iter()
         .flat_map(|(mesher, scale)| [1000, 4000].map(|count| solved(mesher, count, scale)))
         .collect();
-    let page = poisson(&rows);
+    let results = results(&rows);
+    let page = poisson::text(&results);
     assert!(page.contains("### smooth on a, sizes by `lfs`"), "{page}");
     assert!(
         starting(&page, "| biting |")[0].starts_with("| biting | 2 of 2 | 1.20 | 3.60 |"),
@@ -195,7 +196,7 @@ fn errors_are_compared_per_unknown() {
         starting(&page, "| gmsh |")[0].contains("| 1.00 | 3.00 |") && page.contains("| 7.00 | 200 |"),
         "{page}"
     );
-    let told = poisson_finding(&rows).expect("a finding");
+    let told = &poisson::findings(&results)[0];
     assert!(
         told.starts_with("**Error per unknown** in Poisson problems, biting: energy error · √unknowns 1.20 times the best method's, the median method's 1.10, the worst's 1.20;"),
         "{told}"

@@ -1,11 +1,13 @@
 //! The part of the page on what a smallest angle costs: biting beside refinement and Triangle.
 
+use super::drawer::Drawer;
 use super::markdown::{number, table};
-use crate::meshers::MESHERS;
-use crate::suite::analysis::frontier::{Family, factors, families, rows_of};
-use crate::suite::analysis::summary::is_ours;
+use crate::suite::analysis::frontier::{Family, factors, families};
+use crate::suite::analysis::results::Results;
+use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::numbers::{first_seen, median, quantile};
 use crate::suite::rows::record::Row;
+use crate::suite::run::plan::Section;
 
 /// Smallest angles at which sizes are compared, degrees.
 const ANGLES_DEG: [f64; 6] = [10.0, 15.0, 20.0, 25.0, 28.0, 30.0];
@@ -14,8 +16,8 @@ const ANGLES_DEG: [f64; 6] = [10.0, 15.0, 20.0, 25.0, 28.0, 30.0];
 const MEASURE: &str = "triangle";
 
 /// Families by domain, then those over all domains.
-pub(super) fn by_domain(rows: &[Row]) -> Vec<(String, Vec<Family>)> {
-    let rows = rows_of(rows);
+pub(super) fn by_domain(results: &Results) -> Vec<(String, Vec<Family>)> {
+    let rows = results.of(Section::Frontier);
     let domains = first_seen(rows.iter().map(|row| row.cell.domain.as_str()));
     let own = |domain: &str| {
         let own: Vec<&Row> = rows.iter().copied().filter(|row| row.cell.domain == domain).collect();
@@ -47,8 +49,8 @@ fn meshers(families: &[Family]) -> Vec<&str> {
 }
 
 /// The part of the page: a table for each angle over domains, and the settings that come nearest.
-pub(super) fn frontiers(rows: &[Row]) -> String {
-    let all = by_domain(rows);
+pub(super) fn text(results: &Results) -> String {
+    let all = by_domain(results);
     let Some((_, whole)) = all.last() else {
         return String::new();
     };
@@ -67,7 +69,7 @@ pub(super) fn frontiers(rows: &[Row]) -> String {
             },
         };
         let line = |(domain, families): &(String, Vec<Family>)| {
-            let setting = fewest(families, MESHERS[0].name, angle);
+            let setting = fewest(families, &results.about, angle);
             let setting = setting.map_or_else(
                 || "–".to_owned(),
                 |(family, setting, _)| format!("{}, {setting}", family.label),
@@ -78,7 +80,7 @@ pub(super) fn frontiers(rows: &[Row]) -> String {
                 .chain([setting])
                 .collect::<Vec<_>>()
         };
-        let setting = format!("{}'s setting", MESHERS[0].name);
+        let setting = format!("{}'s setting", results.about);
         let mut head = vec!["domain"];
         head.extend(&meshers);
         head.push(&setting);
@@ -87,12 +89,12 @@ pub(super) fn frontiers(rows: &[Row]) -> String {
             table(&head, &all.iter().map(line).collect::<Vec<_>>())
         );
     }
-    text + &nearest(rows)
+    text + &nearest(results)
 }
 
 /// The settings of ours that have the fewest triangles for Triangle's at the same angle, by the median over domains.
-fn nearest(rows: &[Row]) -> String {
-    let settings = by_factor(rows);
+fn nearest(results: &Results) -> String {
+    let settings = by_factor(results);
     if settings.is_empty() {
         return String::new();
     }
@@ -123,14 +125,14 @@ struct Setting {
 }
 
 /// The settings of ours by the median of their factors; those measured on fewer domains than the most are left out.
-fn by_factor(rows: &[Row]) -> Vec<Setting> {
-    let domains = by_domain(rows);
+fn by_factor(results: &Results) -> Vec<Setting> {
+    let domains = by_domain(results);
     let mut settings: Vec<Setting> = Vec::new();
     for (_, families) in domains.iter().filter(|(domain, _)| domain != ALL) {
         let Some(measure) = families.iter().find(|family| family.mesher == MEASURE) else {
             continue;
         };
-        for own in families.iter().filter(|family| family.mesher == MESHERS[0].name) {
+        for own in families.iter().filter(|family| family.mesher == results.about) {
             for (setting, factor) in factors(own, measure) {
                 let name = format!("{}, {setting}", own.label);
                 match settings.iter_mut().find(|known| known.name == name) {
@@ -153,18 +155,20 @@ fn by_factor(rows: &[Row]) -> Vec<Setting> {
 }
 
 /// Where biting's constant is, and how far from Triangle's, in a line.
-pub(super) fn frontier_finding(rows: &[Row]) -> Option<String> {
-    let domains: Vec<_> = by_domain(rows)
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    finding(results).into_iter().collect()
+}
+
+fn finding(results: &Results) -> Option<String> {
+    let domains: Vec<_> = by_domain(results)
         .into_iter()
         .filter(|(domain, _)| domain != ALL)
         .collect();
-    domains.first()?;
-    rows.iter().find(|row| is_ours(row))?;
     let told = [15.0, 20.0, 25.0, 28.0, 30.0].into_iter().filter_map(|angle| {
         let mut factors: Vec<(f64, &str)> = domains
             .iter()
             .filter_map(|(domain, families)| {
-                let own = fewest(families, MESHERS[0].name, angle)?.2;
+                let own = fewest(families, &results.about, angle)?.2;
                 Some((own / fewest(families, MEASURE, angle)?.2, domain.as_str()))
             })
             .collect();
@@ -181,7 +185,7 @@ pub(super) fn frontier_finding(rows: &[Row]) -> Option<String> {
         ))
     });
     let told: Vec<String> = told.collect();
-    let nearest = by_factor(rows).into_iter().next().map(|setting| {
+    let nearest = by_factor(results).into_iter().next().map(|setting| {
         let middle = number(median(setting.factors.clone()));
         format!(
             " The setting that comes nearest on all of them is {} ({middle} times).",
@@ -190,9 +194,23 @@ pub(super) fn frontier_finding(rows: &[Row]) -> Option<String> {
     });
     (!told.is_empty()).then(|| {
         format!(
-            "**Biting's constant beside Triangle's**, the fewest triangles of each for a smallest angle: {}.{}",
+            "**The constant of {} beside Triangle's**, the fewest triangles of each for a smallest angle: {}.{}",
+            results.about,
             told.join("; "),
             nearest.unwrap_or_default()
         )
     })
+}
+
+/// What a smallest angle costs, over all domains and on each.
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
+    for (domain, families) in by_domain(results).iter().rev() {
+        let name = format!("frontier-{}", domain.replace(' ', "-"));
+        let caption = match domain.as_str() {
+            ALL => "Smallest of the angles and median of the sizes over all domains.".to_owned(),
+            _ => format!("Size against smallest angle on {domain}."),
+        };
+        charts::frontiers(domain, families, &drawer.chart(&name, &caption))?;
+    }
+    Ok(())
 }

@@ -1,25 +1,33 @@
-//! The part of the page that sets meshers side by side.
+//! Meshers side by side: at equal edge length, at equal triangle count, and in time.
 
-use super::findings::of_group;
+use super::drawer::Drawer;
 use super::markdown::{degrees, number, parameter, table};
+use super::meshes::side_by_side;
 use crate::quality::Percentiles;
-use crate::suite::analysis::contest::{Asked, Contest, at_equal_count, at_equal_size, seconds_per_triangle};
+use crate::suite::analysis::contest::{Asked, Contest, seconds_per_triangle};
+use crate::suite::analysis::results::Results;
 use crate::suite::analysis::series::TimeSeries;
 use crate::suite::analysis::summary::measured;
+use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::numbers::{distinct, first_seen, quantile};
-use crate::suite::rows::record::{Outcome, Report, Row};
+use crate::suite::rows::record::{Outcome, Report};
+use crate::suite::run::plan::Section;
 use crate::suite::run::tune::{NEAR, is_near};
 
-/// The timed rows, where several methods were timed on the same tasks.
-pub(super) fn timed(rows: &[Row]) -> Contest<'_> {
-    Contest::of(of_group(rows, "time"))
+/// The rows of the section at equal edge length and at equal count, and those by which time is followed.
+fn contests(results: &Results) -> [Contest<'_>; 3] {
+    [
+        results.at_equal_size(Section::Methods),
+        results.at_equal_count(Section::Methods),
+        Contest::of(results.of(Section::Time)),
+    ]
 }
 
 /// Tables at equal edge length and at equal count, and of time; empty where one method ran alone.
-pub(super) fn rivals(rows: &[Row]) -> String {
-    let (size, count, time) = (at_equal_size(rows), at_equal_count(rows), timed(rows));
+pub(super) fn text(results: &Results) -> String {
+    let [size, count, time] = contests(results);
     let mut text = String::new();
-    if size.has_rivals() {
+    if size.has_several_meshers() {
         text += &format!(
             "### At equal edge length\n\nEvery mesher is asked for edges of length s = c_b f, on {}. {}\n\n",
             tasks_told(&size),
@@ -28,7 +36,7 @@ pub(super) fn rivals(rows: &[Row]) -> String {
         text += &method_table(&size, &time);
         text += &by_t_and_c_b(&size);
     }
-    if count.has_rivals() {
+    if count.has_several_meshers() {
         text += &format!(
             "### At equal triangle count\n\nThe spacing stays, c_b is scaled until a mesh has as many triangles as asked \
              for, within {:.0} %, on {}. {} {MEDIANS}\n\n",
@@ -38,7 +46,7 @@ pub(super) fn rivals(rows: &[Row]) -> String {
         );
         text += &method_table(&count, &time);
     }
-    if time.has_rivals() {
+    if time.has_several_meshers() {
         text += &format!("### Time\n\n{}", time_table(&time));
     }
     text
@@ -267,4 +275,34 @@ fn time_table(time: &Contest) -> String {
      triangles; the last column is the median over the tasks that both measured.\n\n"
         .to_string()
         + &table(&head, &lines)
+}
+
+/// Both ways of asking, and time.
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
+    let [size, count, time] = contests(results);
+    charts_of(&size, "edge length", "meshers", drawer)?;
+    charts_of(&count, "triangle count", "meshers-count", drawer)?;
+    if time.has_several_meshers() {
+        let caption = "Seconds against triangles for each method, with the slopes of fitted lines.";
+        charts::time_by_method(&time, &drawer.chart("meshers-time", caption))?;
+    }
+    side_by_side(&size, drawer)
+}
+
+/// Medians of each method, how triangles spread over angles, and where there are several t, medians against these.
+fn charts_of(contest: &Contest, equal: &str, name: &str, drawer: &mut Drawer) -> Result<(), ChartError> {
+    if !contest.has_several_meshers() {
+        return Ok(());
+    }
+    let caption = format!("Methods at equal {equal}: median over the tasks that all measured, and the range.");
+    charts::methods(contest, &drawer.chart(name, &caption))?;
+    let leads = contest.leads();
+    let caption =
+        format!("How triangles spread over smallest angles, for each mesher at equal {equal}; mean over meshes.");
+    charts::angles_by_method(contest, &leads, &drawer.chart(&format!("{name}-angles"), &caption))?;
+    if contest.most_t() > 2 {
+        let caption = "Medians over the tasks that all meshers measured, against t.";
+        charts::methods_against_t(contest, &leads, &drawer.chart(&format!("{name}-against-t"), caption))?;
+    }
+    Ok(())
 }

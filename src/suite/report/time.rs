@@ -1,0 +1,97 @@
+//! How the time of each step grows with the mesh.
+
+use super::drawer::Drawer;
+use super::markdown::{number, table};
+use crate::suite::analysis::results::Results;
+use crate::suite::analysis::series::{TimeSeries, time_series};
+use crate::suite::analysis::summary::measured;
+use crate::suite::charts::{self, ChartError};
+use crate::suite::rows::numbers::{median, quantile, spread};
+use crate::suite::rows::record::Report;
+use crate::suite::run::plan::Section;
+
+/// How the time of one step grows.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Slope {
+    pub(super) name: String,
+    /// Of log seconds against log triangles.
+    pub(super) slope: Option<f64>,
+    /// Median over cells.
+    pub(super) seconds_per_triangle: Option<f64>,
+    /// Fewest and most triangles.
+    pub(super) triangles: (f64, f64),
+}
+
+/// The whole mesh first, then its steps.
+pub(super) fn slopes(results: &Results) -> Vec<Slope> {
+    let series = time_series(&results.ours(Section::Time));
+    let one = |series: TimeSeries| {
+        let triangles: Vec<f64> = series.points.iter().map(|point| point.0).collect();
+        let end = |q| quantile(triangles.clone(), q).unwrap_or(0.0);
+        Slope {
+            slope: series.fit().map(|line| line.slope),
+            seconds_per_triangle: median(series.points.iter().map(|point| point.1 / point.0).collect()),
+            triangles: (end(0.0), end(1.0)),
+            name: series.name,
+        }
+    };
+    series.into_iter().map(one).collect()
+}
+
+/// Slopes of log seconds against log triangles.
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    finding(results).into_iter().collect()
+}
+
+fn finding(results: &Results) -> Option<String> {
+    let slopes = slopes(results);
+    let whole = slopes.first()?;
+    let growth = whole.slope?;
+    let triangulation = slopes.iter().find(|step| step.name.contains("triangulation"));
+    let beside = triangulation.map(|step| format!(", that of the triangulation within it {}", number(step.slope)));
+    Some(format!(
+        "**Time** of {} grows with triangles to the power {}{}; from {} to {} triangles, {} µs per triangle in the median.",
+        results.about,
+        number(growth),
+        beside.unwrap_or_default(),
+        number(whole.triangles.0),
+        number(whole.triangles.1),
+        number(whole.seconds_per_triangle.map(|seconds| 1e6 * seconds))
+    ))
+}
+
+/// Slope and time per triangle of each step.
+pub(super) fn text(results: &Results) -> String {
+    let slopes = slopes(results);
+    if slopes.is_empty() {
+        return String::new();
+    }
+    let timed: Vec<&Report> = results.ours(Section::Time).into_iter().filter_map(measured).collect();
+    let spreads = results.ours(Section::Time).into_iter().filter_map(|row| {
+        let spread = spread(row.samples.clone())?;
+        Some((spread.most - spread.least) / spread.median)
+    });
+    let lines = slopes.iter().map(|step| {
+        vec![
+            step.name.replace('_', " "),
+            number(step.slope),
+            number(step.seconds_per_triangle.map(|s| 1e6 * s)),
+        ]
+    });
+    format!(
+        "Cells run alone and repeated: {}. Each time is the median of its repeats, whose range is {} of it in the \
+         median cell. Slopes are least-squares lines through the logarithms.\n\n",
+        timed.len(),
+        number(median(spreads.collect()))
+    ) + &table(&["step", "slope", "µs per triangle"], &lines.collect::<Vec<_>>())
+}
+
+/// Seconds against triangles, step by step.
+pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), ChartError> {
+    let series = time_series(&results.ours(Section::Time));
+    if series.is_empty() {
+        return Ok(());
+    }
+    let caption = "Seconds against triangles, whole and by step, with the slopes of fitted lines.";
+    charts::time(&series, &drawer.chart("time", caption))
+}
