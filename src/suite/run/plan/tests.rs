@@ -199,7 +199,7 @@ fn the_page_shows_what_is_named_or_else_what_varies() {
     for (from, to, expected) in [
         (
             "spacings = [\"lfs\"]",
-            "spacings = [\"lfs\", \"uniform:1\"]",
+            "spacings = [\"uniform:1\", \"uniform:2\"]",
             "time: time",
         ),
         ("{ order = \"fifo\" }", "{ order = \"fifo\" }, {}", "orders: time"),
