@@ -15,7 +15,7 @@ pub struct Budget {
     pub max_memory: Option<u64>,
 }
 
-/// Watches a budget while a mesher runs.
+/// Holds a running mesher to its budget.
 #[derive(Debug)]
 pub(super) struct Monitor {
     budget: Budget,

@@ -201,13 +201,13 @@ pub struct Trace {
     pub steps: Vec<(&'static str, Duration)>,
     /// Counts a mesher reports beside its mesh, such as bites or forced pieces.
     pub counts: Vec<(&'static str, f64)>,
-    /// Every bite in order, for figures and replays: noted only where there is a list, as [`Trace::watching`] makes it.
+    /// Every bite in order, for figures and replays: noted only where there is a list, as in [`Trace::noting_bites`].
     pub bites: Option<Vec<Bite>>,
 }
 
 impl Trace {
     /// One that notes every bite.
-    pub fn watching() -> Self {
+    pub fn noting_bites() -> Self {
         Self {
             bites: Some(Vec::new()),
             ..Self::default()

@@ -55,7 +55,7 @@ fn circles_check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
             let is_asked = open.as_ref().is_none_or(|open| passes_through(disc, open));
             let gap = match &sizes.reached {
                 _ if !is_asked => 0.0,
-                Some(reached) if reached.is_parted(disc, sizes) => reached::gap_on(disc, subject.domain, sizes),
+                Some(reached) if reached.is_parted(disc, sizes) => open_arc::longest(disc, subject.domain, sizes),
                 _ => gap_on(disc, &mut arcs, subject.domain, sizes),
             };
             covering.see(gap, disc.centre, gap > 0.0);
@@ -271,6 +271,6 @@ fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree, counts: impl Fn(u32
 }
 
 mod eaten;
-mod reached;
+mod open_arc;
 #[cfg(test)]
 mod tests;

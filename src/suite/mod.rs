@@ -2,7 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`peers`] | meshers outside this crate, behind a process boundary |
+//! | [`peers`] | meshers of others, behind a process boundary |
 //! | [`fem`] | what quality is for: a Poisson problem on the mesh, its error, iterations and eigenvalues |
 //! | [`rows`] | what an experiment leaves: a record for each mesh, the journal of a run, what made them |
 //! | [`run`] | from a plan (TOML) to rows |

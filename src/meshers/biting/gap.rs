@@ -3,7 +3,7 @@
 use crate::geometry::near::{Disc, Near};
 use crate::geometry::{DVec2, tolerance};
 use crate::meshers::MeshError;
-use crate::meshers::biting::beyond::crossing::Watch;
+use crate::meshers::biting::beyond::crossing::PassingLine;
 use crate::meshers::biting::front::Front;
 use crate::theory::Rule;
 
@@ -91,8 +91,8 @@ impl Gap {
     }
 
     /// The segment's line as the point at `along`, `across` sees it, which eats a `share` of what it would.
-    fn watch<'a>(&self, front: &Front<'a>, (along, across): (f64, f64), share: f64, guess: f64) -> Watch<'a> {
-        Watch {
+    fn line_past<'a>(&self, front: &Front<'a>, (along, across): (f64, f64), share: f64, guess: f64) -> PassingLine<'a> {
+        PassingLine {
             sizing: front.radii,
             foot: self.at(along),
             direction: self.direction,
@@ -109,8 +109,8 @@ impl Gap {
             Rule::Earlier => Ok(self.chord(circle, near).map_or(self.low, |(_, exit)| exit)),
             Rule::Later => {
                 let place = self.place(circle, near);
-                let watch = self.watch(front, place, 1.0 - tolerance::COVERED, circle.radius);
-                let exit = watch.exit([self.low - place.0, self.high - place.0])?;
+                let line = self.line_past(front, place, 1.0 - tolerance::COVERED, circle.radius);
+                let exit = line.exit([self.low - place.0, self.high - place.0])?;
                 Ok(exit.map_or(f64::INFINITY, |exit| place.0 + exit))
             }
         }
@@ -122,8 +122,8 @@ impl Gap {
             Rule::Earlier => Ok(self.chord(circle, near)),
             Rule::Later => {
                 let place = self.place(circle, near);
-                let watch = self.watch(front, place, 1.0 - tolerance::COVERED, circle.radius);
-                let crossings = watch.crossings([self.low - place.0, self.high - place.0])?;
+                let line = self.line_past(front, place, 1.0 - tolerance::COVERED, circle.radius);
+                let crossings = line.crossings([self.low - place.0, self.high - place.0])?;
                 let mut crossings = crossings.iter().skip_while(|crossing| crossing.rises);
                 let Some(entry) = crossings.next() else { return Ok(None) };
                 let exit = crossings.next().map_or(self.high, |exit| place.0 + exit.at);
@@ -142,8 +142,8 @@ impl Gap {
         let (before, after) = match front.rule {
             Rule::Earlier => (position - disc.radius, position + disc.radius),
             Rule::Later => {
-                let watch = self.watch(front, (position, 0.0), 1.0, disc.radius);
-                let crossings = watch.crossings([self.low - position, self.high - position])?;
+                let line = self.line_past(front, (position, 0.0), 1.0, disc.radius);
+                let crossings = line.crossings([self.low - position, self.high - position])?;
                 let crossing = |rises: bool| crossings.iter().find(|crossing| crossing.rises == rises);
                 (
                     crossing(false).map_or(f64::NEG_INFINITY, |entry| position + entry.at),

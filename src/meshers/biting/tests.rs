@@ -286,7 +286,7 @@ fn every_bite_is_noted_with_what_it_did_to_the_front() {
         .expect("a valid domain");
     let spacing = build("lfs", &domain, &Options::with_alpha(0.5)).expect("a spacing");
     for order in Order::ALL {
-        let mut trace = Trace::watching();
+        let mut trace = Trace::noting_bites();
         let bitten = with(order)
             .bite(&domain, &*spacing.function, &request(0.5), &mut trace)
             .expect("a bitten plate");

@@ -1,6 +1,6 @@
 //! Budgets of seconds and memory in stages that do not look at them themselves.
 //!
-//! The work runs on a thread of its own while the caller watches clock and memory. What is given up ends with the process:
+//! The work runs on a thread of its own while the caller looks at clock and memory. What is given up ends with the process:
 //! nothing is written by then.
 
 use super::exit::Failure;
@@ -32,7 +32,7 @@ pub fn within<T: Send + 'static>(
     let (sender, receiver) = mpsc::channel();
     let start = Instant::now();
     let worker = thread::Builder::new().stack_size(STACK_BYTES).spawn(move || {
-        // Nobody listens any more where the watch has given up.
+        // Nobody listens any more where the caller has given up.
         let _ = sender.send(work());
     });
     let worker = worker.map_err(|error| Failure::Input(format!("no thread can be started: {error}; try again")))?;
@@ -46,18 +46,18 @@ pub fn within<T: Send + 'static>(
                 Ok(()) => return Err(Failure::Broken("the work ended without a result".into())),
             },
         }
-        let Some(reached) = reached(budget, start) else {
+        let Some(used_up) = used_up(budget, start) else {
             exceeded = None;
             continue;
         };
         if exceeded.get_or_insert_with(Instant::now).elapsed() >= patience {
-            return Err(Failure::Declined(format!("stopped by {reached} while {}", told())));
+            return Err(Failure::Declined(format!("stopped by {used_up} while {}", told())));
         }
     }
 }
 
 /// The budget that is used up, if one is.
-fn reached(budget: &Budget, start: Instant) -> Option<String> {
+fn used_up(budget: &Budget, start: Instant) -> Option<String> {
     match *budget {
         Budget {
             max_seconds: Some(most),

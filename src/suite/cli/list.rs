@@ -37,7 +37,7 @@ pub fn run() -> Outcome {
         say_entry(AnyEntry::Ours(entry));
         say(format_args!("    guarantees by default {}", guarantees(entry)));
     }
-    say("\nMeshers outside this crate");
+    say("\nPeers");
     for entry in PEERS {
         say_entry(AnyEntry::Peer(entry));
         match install::command(entry.name) {

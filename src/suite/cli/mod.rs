@@ -43,7 +43,7 @@ enum Verb {
     Adapt(Box<adapt::Arguments>),
     /// Judge a mesh from anywhere
     Check(check::Arguments),
-    /// Set our meshers beside those outside this crate
+    /// Set our meshers beside peers: meshers of others that people use
     Compare(compare::Arguments),
     /// Draw the paper's figures from real runs, or write a replay of one
     Figures(figures::Arguments),

@@ -9,8 +9,7 @@ use crate::geometry::near::Disc;
 use crate::geometry::tolerance::ALONG_SEGMENT;
 use crate::mesh::{Mesh, Piece};
 use crate::meshers::biting::{Biting, Corners, HeadOn, Order, TO_THE_LETTER};
-use crate::meshers::{Bite, Budget, Mesher, Reason, Request, Trace};
-use crate::spacing::Spacing;
+use crate::meshers::{Bite, Budget, Reason, Request, Trace};
 use crate::suite::rows::record::{Cell, quoted};
 use crate::suite::run::measure::fingerprint;
 use crate::theory::Rule;
@@ -83,7 +82,7 @@ impl Run {
             corners: Corners::Bite,
             head_on: HeadOn::Leave,
         };
-        let mut trace = Trace::watching();
+        let mut trace = Trace::noting_bites();
         let mesh = case.mesh_as(&mesher, &request, &mut trace);
         let mesh = mesh.map_err(|error| told(&error))?;
         let domain = &*case.domain;

@@ -72,7 +72,7 @@ pub fn run(command: &[OsString], folder: &Path, threads: usize, limits: Limits) 
         start.env(name, threads.max(1).to_string());
     }
     let mut group = Group(start.spawn()?);
-    let stopped = group.watch(limits)?;
+    let stopped = group.wait(limits)?;
     if let Some(limit) = stopped {
         return Ok(Ending::Stopped(limit));
     }
@@ -114,7 +114,7 @@ struct Group(Child);
 
 impl Group {
     /// Waits for the leader's end; at a limit says which.
-    fn watch(&mut self, limits: Limits) -> io::Result<Option<String>> {
+    fn wait(&mut self, limits: Limits) -> io::Result<Option<String>> {
         let start = Instant::now();
         for look in 0u32.. {
             if self.0.try_wait()?.is_some() {

@@ -89,7 +89,7 @@ fn recording(cell: &Cell) -> Result<Recording, ReplayError> {
         },
         ..Request::new(cell.c_b)
     };
-    let mut trace = Trace::watching();
+    let mut trace = Trace::noting_bites();
     let mesh = prepared.case(cell.c_b).mesh_as(&*mesher, &request, &mut trace)?;
     let bites = trace.bites.unwrap_or_default();
     record::record(cell, &prepared, &mesh, &bites).map_err(ReplayError::Input)

@@ -23,7 +23,7 @@ const STEPS: usize = 200;
 
 /// A line past a point.
 #[derive(Clone, Copy)]
-pub(in crate::meshers::biting) struct Watch<'a> {
+pub(in crate::meshers::biting) struct PassingLine<'a> {
     pub sizing: Sizing<'a>,
     /// The foot of the point on the line.
     pub foot: DVec2,
@@ -56,7 +56,7 @@ struct Sample {
     radius: f64,
 }
 
-impl Watch<'_> {
+impl PassingLine<'_> {
     /// All crossings in [from, to] by their order along the line.
     pub fn crossings(&self, [from, to]: [f64; 2]) -> Result<Vec<Crossing>, MeshError> {
         let mut found = Vec::new();
@@ -235,7 +235,7 @@ mod tests {
             threads: 1,
             budget: Budget::default(),
         };
-        let watch = Watch {
+        let line = PassingLine {
             sizing: Sizing::new(&domain, waves, &request),
             foot: DVec2::new(0.0, 0.5),
             direction: DVec2::X,
@@ -243,7 +243,7 @@ mod tests {
             share: 1.0,
             guess: waves.height,
         };
-        watch.crossings(range).expect("a finite spacing")
+        line.crossings(range).expect("a finite spacing")
     }
 
     #[test]

@@ -6,7 +6,7 @@
 //! distance less g rises, so that is star-shaped, lies between B(x, g(x) / (1 + t)) and B(x, g(x) / (1 − t)), and is a circle
 //! where f is constant. The front is where the distance to the nearest point is g; its vertices are the y that have two
 //! nearest points, ‖y − x₁‖ = ‖y − x₂‖ = g(y): on edges of the Voronoi diagram. So for a pair of points that part of their
-//! bisector is looked at which no third point is nearer to, mostly nothing at all, and [`Watch`] finds where it leaves
+//! bisector is looked at which no third point is nearer to, mostly nothing at all, and [`PassingLine`] finds where it leaves
 //! what is eaten. A front vertex y is eaten by every point nearer than g(y).
 //!
 //! # What is known and what is new
@@ -68,7 +68,7 @@
 use crate::geometry::near::{Disc, Near, circle_intersections};
 use crate::geometry::{DVec2, tolerance};
 use crate::meshers::MeshError;
-use crate::meshers::biting::beyond::crossing::Watch;
+use crate::meshers::biting::beyond::crossing::PassingLine;
 use crate::meshers::biting::front::Front;
 use crate::theory::Rule;
 
@@ -144,7 +144,7 @@ impl Front<'_> {
             return Ok(Vec::new());
         };
         let half = 0.5 * other.offset;
-        let watch = Watch {
+        let line = PassingLine {
             sizing: self.radii,
             foot: disc.centre + half,
             direction: bisector.direction,
@@ -157,7 +157,7 @@ impl Front<'_> {
             disc.radius.max(other.radius) / (ROOM * (1.0 + self.radii.t())),
             half.length(),
         ) {
-            crossings.extend(watch.crossings(range)?);
+            crossings.extend(line.crossings(range)?);
         }
         let meeting = |crossing: &crate::meshers::biting::beyond::crossing::Crossing| {
             // The very point of the paper's rule where f is constant.

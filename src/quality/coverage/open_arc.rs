@@ -14,7 +14,7 @@ use std::ops::ControlFlow;
 const SHORTEST: f64 = 1e-12;
 
 /// The longest arc of the disc's circle that it reaches and no other disc does, in radians; 0 if there is none.
-pub fn gap_on(disc: &Disc, domain: &Domain, sizes: &Sizes) -> f64 {
+pub fn longest(disc: &Disc, domain: &Domain, sizes: &Sizes) -> f64 {
     let mut others = Vec::new();
     let mut ends = vec![-PI, PI];
     sizes.circles.meeting(disc.centre, disc.radius, |other| {
