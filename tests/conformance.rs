@@ -165,12 +165,11 @@ fn kinds(field: &str, sizes: &str, mesh: &str) -> Vec<String> {
         "lfs:geodesic".into(),
         "uniform:0.1".into(),
         "expr:0.05+0.1*x^2".into(),
-        format!("hessian:{u};eps=0.02"),
+        format!("hessian:{u};eps=0.02;max=0.3"),
         format!("field:{field};eps=0.02;min=0.02"),
         format!("points:{sizes};alpha=0.2"),
         format!("el:{mesh}"),
         format!("nn:{mesh};factor=0.8"),
-        format!("gns:hessian:{u};eps=0.02;max=0.3"),
         format!("min(expr:0.1+x, hessian:{u};eps=0.05, nn:{mesh})"),
     ]
 }

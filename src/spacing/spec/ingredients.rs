@@ -87,7 +87,6 @@ fn collect(spec: &Spec, bounds: Rect, parts: &mut Vec<Arc<dyn Spacing>>) -> Resu
             let nn = on_mesh(spec, files::read(file.as_ref()), NearestNeighbour::new)?;
             parts.push(times(*factor, Arc::new(nn)));
         }
-        Spec::Gns(inner) => collect(inner, bounds, parts)?,
         Spec::Min(specs) => specs.iter().try_for_each(|spec| collect(spec, bounds, parts))?,
     }
     Ok(())

@@ -3,10 +3,10 @@
 //! ```text
 //! SPEC = lfs | lfs:geodesic | uniform:H | expr:EXPRESSION | hessian:EXPRESSION;eps=E[;min=A][;max=B]
 //!      | field:FILE;eps=E[;min=A][;max=B] | points:FILE[;factor=K][;alpha=A] | el:FILE[;factor=K] | nn:FILE[;factor=K]
-//!      | gns:SPEC | min(SPEC, SPEC, …)
+//!      | min(SPEC, SPEC, …)
 //! ```
 //! Commas split `min` where no parenthesis of an expression is open; a file's name has no commas, semicolons or parentheses.
-//! `lfs:geodesic` stands alone or in a `min` without `lfs` and `gns`, both of which it would be above.
+//! `lfs:geodesic` stands alone or in a `min` without `lfs`, which it is nowhere below.
 
 pub(super) mod ingredients;
 mod settings;
@@ -17,7 +17,7 @@ use crate::spacing::expression::hessian::Tolerance;
 use std::fmt;
 
 /// The kinds of SPEC with their arguments, for messages and lists.
-pub const KINDS: [&str; 11] = [
+pub const KINDS: [&str; 10] = [
     "lfs",
     "lfs:geodesic",
     "uniform:H",
@@ -27,7 +27,6 @@ pub const KINDS: [&str; 11] = [
     "points:FILE",
     "el:FILE",
     "nn:FILE",
-    "gns:SPEC",
     "min(A, B)",
 ];
 
@@ -59,8 +58,6 @@ pub enum Spec {
     EdgeLength(String, Option<f64>),
     /// nn_M of §2.1 for the mesh in a file, times a factor if there is one.
     NearestNeighbour(String, Option<f64>),
-    /// gns of §2.3: the smaller of lfs and another.
-    Gns(Box<Spec>),
     /// The smallest of several.
     Min(Vec<Spec>),
 }
@@ -80,7 +77,6 @@ impl fmt::Display for Spec {
             }
             Self::EdgeLength(file, factor) => write!(out, "el:{file}{}", settings::text(&[("factor", *factor)])),
             Self::NearestNeighbour(file, factor) => write!(out, "nn:{file}{}", settings::text(&[("factor", *factor)])),
-            Self::Gns(inner) => write!(out, "gns:{inner}"),
             Self::Min(parts) => {
                 let parts: Vec<String> = parts.iter().map(ToString::to_string).collect();
                 write!(out, "min({})", parts.join(", "))
@@ -107,10 +103,7 @@ impl Spec {
         let spec = reader.spec(0, text.len())?;
         if spec.is_geodesic() && spec.is_euclidean_lfs() {
             let at = text.find("lfs:geodesic").unwrap_or_default();
-            return Err(reader.error(
-                at,
-                "lfs:geodesic is nowhere below lfs, and so not below gns; leave one of them out",
-            ));
+            return Err(reader.error(at, "lfs:geodesic is nowhere below lfs; leave one of them out"));
         }
         Ok(spec)
     }
@@ -118,7 +111,7 @@ impl Spec {
     /// Whether the spacing is nowhere above lfs by its own definition.
     pub fn is_capped(&self) -> bool {
         match self {
-            Self::Lfs | Self::GeodesicLfs | Self::Gns(_) => true,
+            Self::Lfs | Self::GeodesicLfs => true,
             Self::Min(parts) => parts.iter().any(Self::is_capped),
             Self::Uniform(_) | Self::Expression(_) | Self::Hessian(..) => false,
             Self::Field(..) | Self::Points { .. } | Self::EdgeLength(..) | Self::NearestNeighbour(..) => false,
@@ -129,7 +122,6 @@ impl Spec {
     pub fn is_geodesic(&self) -> bool {
         match self {
             Self::GeodesicLfs => true,
-            Self::Gns(inner) => inner.is_geodesic(),
             Self::Min(parts) => parts.iter().any(Self::is_geodesic),
             _ => false,
         }
@@ -138,7 +130,7 @@ impl Spec {
     /// Whether lfs as the plane has it is in it.
     fn is_euclidean_lfs(&self) -> bool {
         match self {
-            Self::Lfs | Self::Gns(_) => true,
+            Self::Lfs => true,
             Self::Min(parts) => parts.iter().any(Self::is_euclidean_lfs),
             _ => false,
         }
@@ -158,12 +150,12 @@ pub fn spec_for_size(expression: &str, c_b: f64) -> Result<String, SpacingError>
     Ok(format!("expr:({})/{c_b}", expression.trim()))
 }
 
-/// How deep `min` and `gns` may nest: keeps the stack small, here and wherever a [`Spec`] is walked.
+/// How deep `min` may nest: keeps the stack small, here and wherever a [`Spec`] is walked.
 const NESTING: usize = 64;
 
 struct Reader<'a> {
     whole: &'a str,
-    /// How many `min(` and `gns:` are open.
+    /// How many `min(` are open.
     open: usize,
 }
 
@@ -193,10 +185,11 @@ impl Reader<'_> {
             return Ok(spec);
         }
         if text.starts_with("gns:") {
-            let inner = self.nested(from, "gns", |reader| {
-                reader.spec(from + "gns:".len(), from + text.len())
-            })?;
-            return Ok(Spec::Gns(Box::new(inner)));
+            // A kind of its own once, which scripts may still have.
+            return Err(self.error(
+                from,
+                "write SPEC in place of gns:SPEC, since every spacing is capped by lfs; where that cap is lifted, min(lfs, SPEC)",
+            ));
         }
         if let Some(rest) = text
             .strip_prefix("min")
@@ -204,7 +197,7 @@ impl Reader<'_> {
             .filter(|rest| rest.starts_with('('))
         {
             let inside = from + text.len() - rest.len() + 1;
-            return self.nested(from, "min", |reader| reader.min(inside, from + text.len()));
+            return self.nested(from, |reader| reader.min(inside, from + text.len()));
         }
         Err(SpacingError::UnknownKind {
             kind: text.into(),
@@ -251,15 +244,14 @@ impl Reader<'_> {
         }))
     }
 
-    /// What `read` finds one level deeper, for the `name` that stands at `from`.
+    /// What `read` finds one level deeper, for the `min` that stands at `from`.
     fn nested(
         &mut self,
         from: usize,
-        name: &str,
         read: impl FnOnce(&mut Self) -> Result<Spec, SpacingError>,
     ) -> Result<Spec, SpacingError> {
         if self.open == NESTING {
-            return Err(self.error(from, format!("`{name}` is nested too deeply")));
+            return Err(self.error(from, "`min` is nested too deeply"));
         }
         self.open += 1;
         let spec = read(self);
