@@ -44,7 +44,6 @@ pub use lfs::{Lfs, Narrowest};
 pub use limit::envelope::of_samples;
 pub use limit::limit;
 pub use limit::limited::Limited;
-pub use limit::reference::largest_at;
 pub use spec::ingredients::Ingredients;
 pub use spec::{KINDS, Spec, spec_for_size};
 pub use uniform::Uniform;

@@ -30,7 +30,8 @@
 mod domain_tests;
 pub(super) mod envelope;
 pub(super) mod limited;
-pub(super) mod reference;
+#[cfg(test)]
+mod reference;
 mod samples;
 mod waiting;
 

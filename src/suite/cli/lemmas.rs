@@ -3,7 +3,6 @@
 use super::exit::{Failure, Outcome};
 use super::output::say;
 use crate::suite::lemmas::findings::FINDINGS;
-use crate::suite::lemmas::limiter::{self, Limiting};
 use crate::suite::lemmas::measured::Meshes;
 use crate::suite::lemmas::nearest::{self, Found};
 use crate::suite::lemmas::table::{self, Line, sign};
@@ -18,9 +17,6 @@ pub struct Arguments {
     /// First search for the meshes that come nearest to the bounds, which takes minutes
     #[arg(long, conflicts_with = "only")]
     nearest: bool,
-    /// First measure how near the limited lfs comes to the largest α-Lipschitz function below lfs, which takes a minute
-    #[arg(long, conflicts_with = "only")]
-    limiter: bool,
     /// Folder that holds `results` and `paper`
     #[arg(long, value_name = "FOLDER", default_value = ".")]
     root: PathBuf,
@@ -38,15 +34,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
                     ))
                 };
                 nearest::search(&arguments.root, found).map_err(Failure::Input)?;
-            }
-            if arguments.limiter {
-                let told = |row: &Limiting| {
-                    say(format_args!(
-                        "alpha {}: at least {} of the largest",
-                        row.alpha, row.least
-                    ))
-                };
-                limiter::measure(&arguments.root, told).map_err(Failure::Input)?;
             }
             let (lines, written) = lemmas::write(&arguments.root).map_err(Failure::input)?;
             lines.iter().for_each(|line| say(summary(line)));

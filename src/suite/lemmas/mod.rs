@@ -5,15 +5,12 @@
 //! * **On meshes** ([`measured`]): the worst margin over all committed rows, with the cell it was seen in; and [`nearest`]: what
 //!   a search for the mesh nearest to each bound found.
 //!
-//! And [`limiter`]: how near the limited spacing comes to the largest that §2.3 has.
-//!
 //! [`statements`] has the records in the order of the paper, [`errata`] what came out beside numbers.
 
 pub mod demonstration;
 pub mod errata;
 pub mod findings;
 pub mod judge;
-pub mod limiter;
 mod linear;
 pub mod measured;
 pub mod nearest;
@@ -42,7 +39,7 @@ pub fn write(root: &Path) -> Result<(Vec<Line>, Vec<PathBuf>), String> {
         (results.join("lemmas/rows.jsonl"), rows),
         (
             results.join("lemmas/README.md"),
-            table::page(&lines, &meshes, &nearest::again(root)?, &limiter::read(root)?),
+            table::page(&lines, &meshes, &nearest::again(root)?),
         ),
         (root.join("paper/errata.md"), errata::page(&lines)?),
     ];

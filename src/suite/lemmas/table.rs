@@ -1,7 +1,6 @@
 //! All statements judged, as rows and as the page `results/lemmas/README.md`.
 
 use super::judge::{Judged, Verdict, grid, optima, verdict};
-use super::limiter::{self, Limiting};
 use super::measured::{Meshes, Worst};
 use super::nearest::{self, Found};
 use super::record::{Bound, Statement};
@@ -175,7 +174,7 @@ pub fn judge_all(meshes: &Meshes, only: Option<&str>) -> Vec<Line> {
 }
 
 /// The page.
-pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found], limiting: &[Limiting]) -> String {
+pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found]) -> String {
     let count = |word: &str| lines.iter().filter(|line| line.printed.word() == word).count();
     let mut text = format!(
         "# The paper's statements, judged twice\n\nMade by `cargo run --release -- lemmas` from the records in `src/suite/lemmas/statements`; nothing here is typed.\n\n\
@@ -208,7 +207,6 @@ pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found], limiting: &[Limi
     text += "## Where the worst was seen\n\n";
     text += &where_seen(lines);
     text += &nearest::section(nearest, meshes);
-    text += &limiter::section(limiting);
     text += "## Figures\n\n";
     text += &figures(lines);
     text += "## What each needs and what rests on it\n\n";
