@@ -73,7 +73,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(8))]
+        #![proptest_config(ProptestConfig::with_cases(64))]
 
         /// As measured once on the coast of norway, at 600 points for each of nine α: at least 0.900 of the largest function, up to all
         /// of it.
