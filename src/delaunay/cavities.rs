@@ -5,11 +5,11 @@ use crate::geometry::DVec2;
 use spade::Triangulation;
 use spade::handles::FixedDirectedEdgeHandle;
 
-/// The constrained Delaunay triangulation of what `edges`, directed, have on their left: triangles, each with the index of
+/// The constrained Delaunay triangulation of what the directed `edges` have on their left: triangles, each with the index of
 /// an edge of the cavity it lies in. Points on no edge may lie in cavities. Both directions of an edge may be given.
 ///
 /// # Errors
-/// Where edges cross or points coincide; [`TriangulationError::Leak`] where the edges enclose nothing.
+/// If edges cross or points coincide; [`TriangulationError::Leak`] if the edges enclose nothing.
 pub fn triangulate_cavities(points: &[DVec2], edges: &[[u32; 2]]) -> Result<Vec<([u32; 3], u32)>, TriangulationError> {
     let (mut cdt, handles) = load(points)?;
     let mut sides = Vec::with_capacity(edges.len());
@@ -34,7 +34,7 @@ pub fn triangulate_cavities(points: &[DVec2], edges: &[[u32; 2]]) -> Result<Vec<
     Ok(labelled.collect())
 }
 
-/// For each face the index of a side that it is on the left of, through unconstrained edges.
+/// For each face, the index of a side that has it on the left, found through unconstrained edges.
 fn flood(cdt: &Cdt, sides: &[FixedDirectedEdgeHandle]) -> Result<Vec<u32>, TriangulationError> {
     let mut labels = vec![UNKNOWN; cdt.num_all_faces()];
     for (index, &side) in (0u32..).zip(sides) {

@@ -1,10 +1,10 @@
-//! Points plus boundary pieces → constrained Delaunay triangulation, outside and holes carved away. The only door to spade.
+//! Points plus boundary pieces → constrained Delaunay triangulation, outside and holes carved away. The only user of spade.
 //!
-//! Step 6 of §5.1. [`triangulate`] bulk-loads the points ([`spade`]'s circle sweep, 0.8 s for a million points, where the
-//! variant that keeps the order of the points takes 1.4 s: so each point carries its index instead), makes the pieces
+//! Step 6 of §5.1. [`triangulate`] bulk-loads the points by [`spade`]'s circle sweep. (It takes 0.8 s for a million points; the
+//! variant that keeps the order of the points takes 1.4 s, so each point carries its index instead.) It makes the pieces
 //! constraints, and floods the faces from the pieces, whose segments know what lies on their left and right. The only
 //! arithmetic is in exact predicates, so a boundary point that rounding moved off its segment by an ulp leaves no hole
-//! and no sliver: the domain meshed is the one whose boundary is the pieces.
+//! and no sliver: the domain that is meshed is the one whose boundary is the pieces.
 //!
 //! [`Reach`] searches the triangulation of the domain alone for what discs reach inside it.
 //! [`Refinable`] starts from the same triangulation and takes points one at a time, for refinement.
@@ -84,12 +84,12 @@ pub enum TriangulationError {
         /// Index of the piece.
         piece: usize,
     },
-    /// Anything else spade refuses, in its words.
+    /// Anything else that spade refuses, in its words.
     #[error("triangulation: {0}")]
     Refused(String),
 }
 
-/// What spade stores: a position and the index the caller knows it by.
+/// What spade stores: a position, and the caller's index of the point.
 #[derive(Clone, Copy)]
 struct Vertex {
     position: Point2<f64>,
@@ -106,7 +106,7 @@ impl HasPosition for Vertex {
 
 type Cdt = ConstrainedDelaunayTriangulation<Vertex>;
 
-/// Marks a face the flood has not reached.
+/// Marks a face that the flood has not reached.
 const UNKNOWN: u32 = u32::MAX;
 
 /// The constrained Delaunay triangulation of `points` with `pieces` as constraints, the outside and holes carved away.
@@ -203,7 +203,7 @@ fn coincident(points: &[DVec2]) -> TriangulationError {
     }
 }
 
-/// Makes the pieces constraints. Gives each with its directed edge a → b, cut where it passes through a point.
+/// Makes the pieces constraints. Returns each with its directed edge a → b, cut where it passes through a point.
 fn constrain(
     cdt: &mut Cdt,
     handles: &[FixedVertexHandle],
@@ -261,8 +261,8 @@ fn crossing(cdt: &Cdt, handles: &[FixedVertexHandle], points: &[DVec2], piece: &
 
 /// The domain's face that each triangle lies in, spread from the pieces over all unconstrained edges.
 ///
-/// One inside face, the one with most pieces, is not walked through but gets what no other face has reached: outside
-/// and holes are usually few triangles. Should another face leak into it, that one meets one of its pieces.
+/// The inside face with the most pieces is not walked through: it gets the triangles that no other face has reached, since
+/// outside and holes are usually few triangles. A face that leaks into it meets one of its pieces.
 fn flood(
     cdt: &Cdt,
     domain: &Domain,
@@ -307,7 +307,7 @@ fn flood(
     Ok(flood.labels)
 }
 
-/// The inside face that most sides of pieces look at; 0, which is outside, where there is none.
+/// The inside face that most sides of pieces border on; 0, which is outside, if there is none.
 fn face_with_most_pieces(domain: &Domain, labels: impl Iterator<Item = u32>) -> u32 {
     let mut counts = vec![0usize; domain.faces().len()];
     for label in labels {
@@ -338,7 +338,7 @@ impl Flood<'_> {
                 .extend(edge.face().as_inner().map(|face| (face.fix(), label)));
             return Ok(());
         }
-        // Two outside faces may have become one where segments that bound nothing inside were left out.
+        // Two outside faces may have become one, because segments that bound nothing inside were left out.
         let (one, other) = (self.faces[*found as usize], self.faces[label as usize]);
         if one.inside != other.inside || (one.inside && one.region.to_bits() != other.region.to_bits()) {
             let [a, b] = edge.positions();
@@ -351,7 +351,7 @@ impl Flood<'_> {
     }
 }
 
-/// Whether a constraint is no Delaunay edge: the far corner of one triangle lies inside the circle of the other.
+/// Whether a constraint is not a Delaunay edge: the far corner of one triangle lies inside the circle of the other.
 fn is_forced(cdt: &Cdt, edge: FixedDirectedEdgeHandle) -> bool {
     let edge = cdt.directed_edge(edge);
     let position = |point: Point2<f64>| DVec2::new(point.x, point.y);

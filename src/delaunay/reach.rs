@@ -3,14 +3,14 @@
 //!
 //! # Idea
 //! The domain's own triangulation, from its vertices and segments alone, is searched from the triangles that hold the centre
-//! x. A disc meets a triangle in a convex set, so what the disc B(x, r) reaches of a triangle is all it meets of it or nothing,
-//! and from a triangle that is reached the one across an edge is if and only if the edge is no boundary and has a point in
-//! the disc. Where the domain touches itself at a vertex, so have the triangles there when the vertex is in the disc. With
-//! triangles taken by growing least radius (the largest distance of an edge to cross, on the best way), the radius at
-//! which each vertex and each segment is reached comes out in order.
+//! x. A disc meets a triangle in a convex set, so the disc B(x, r) reaches all of a triangle that it meets, or nothing. If it
+//! reaches a triangle, it reaches the one across an edge if and only if the edge is not on the boundary and has a point in
+//! the disc. Where the domain touches itself at a vertex, it also reaches the triangles there if the vertex is in the disc.
+//! Triangles are taken in the order of their least radius (the largest distance of an edge to cross, on the best way), so the
+//! radii at which vertices and segments are reached come out in order.
 //!
 //! # Cost
-//! About log n for the triangle that holds the centre, and as many steps as triangles of the domain's triangulation are met.
+//! About log n to find the triangle that holds the centre, and one step for each triangle of the domain's triangulation that is met.
 
 use super::{TriangulationError, triangulate};
 use crate::domain::Domain;
@@ -37,7 +37,7 @@ pub enum Feature {
 #[derive(Clone, Debug)]
 pub struct Reach {
     points: Vec<DVec2>,
-    /// How many of them are the domain's; they come first.
+    /// How many of them are the domain's, which come first.
     input_vertices: usize,
     /// Counter-clockwise.
     triangles: Vec<[u32; 3]>,
@@ -54,7 +54,7 @@ pub struct Reach {
     boundary: SegmentIndex,
 }
 
-/// What a disc reaches, where that is not all of the domain that it meets.
+/// What a disc reaches, if that is not all of the domain that it meets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part(Box<[u32]>);
 
@@ -69,7 +69,7 @@ impl Reach {
     /// Triangulates the domain.
     ///
     /// # Errors
-    /// Where it cannot be triangulated.
+    /// If it cannot be triangulated.
     pub fn new(domain: &Domain) -> Result<Self, TriangulationError> {
         let whole = (0..domain.segments().len()).map(|_| Vec::new());
         let mesh = triangulate(domain, domain.vertices().to_vec(), Piece::chains(domain, whole))?;
@@ -117,7 +117,7 @@ impl Reach {
     }
 
     /// lfs(x) with discs that count only what they reach: the radius of the smallest disc around `x` that reaches two features
-    /// that are not incident (Definition 2.1 and its footnote). Infinite where there are no two.
+    /// that are not incident (Definition 2.1 and its footnote). Infinite if there are no two.
     pub fn smallest_apart(&self, x: DVec2) -> f64 {
         let mut met: Vec<[u32; 2]> = Vec::new();
         let mut found = f64::INFINITY;
@@ -137,11 +137,11 @@ impl Reach {
         found
     }
 
-    /// Visits the features that discs around `x` reach, each with the radius at which they do, by growing radius, until told
-    /// to break off.
+    /// Visits the features that discs around `x` reach, each with its radius, in the order of the radii, until `visit` breaks
+    /// off.
     pub fn grow(&self, x: DVec2, mut visit: impl FnMut(Feature, f64) -> ControlFlow<()>) {
         let mut waiting: BinaryHeap<Reverse<(u64, Step)>> = BinaryHeap::new();
-        // Distances are not negative, so that their bits are ordered as they are.
+        // Distances are not negative, so their bits have the same order.
         self.holding(x, |t| waiting.push(Reverse((0, Step::Triangle(t)))));
         let mut done: FxHashSet<Step> = FxHashSet::default();
         while let Some(Reverse((key, step))) = waiting.pop() {
@@ -187,7 +187,7 @@ impl Reach {
     }
 
     /// What the closed disc reaches, if it meets more of the domain than that. Not through vertices where the domain touches
-    /// itself: what lies behind one is the affair of a disc around it.
+    /// itself: what lies behind such a vertex counts for a disc around that vertex.
     pub fn part(&self, centre: DVec2, radius: f64) -> Option<Part> {
         // Each other component of what the disc meets has a boundary side of its own in the disc.
         let mut sides = 0i64;
@@ -262,7 +262,7 @@ impl Reach {
         closest_on_segment(ends, x).distance(x)
     }
 
-    /// The closed triangles that hold `x` or, where rounding has put it beside the domain, the nearest.
+    /// The closed triangles that hold `x` or, if rounding has put it beside the domain, the nearest.
     fn holding(&self, x: DVec2, mut visit: impl FnMut(u32)) {
         let corners = |t: usize| self.triangles[t].map(|v| self.points[v as usize]);
         let mut is_held = false;

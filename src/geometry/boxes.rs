@@ -1,16 +1,16 @@
 //! A static index over things with boxes: which lie near a point, the nearer ones first, and which meet a box.
 //!
-//! A balanced binary tree, built once by median splits and walked without allocating: a query costs O(log n) and what it finds.
+//! A balanced binary tree, built once by median splits and walked without allocating: a query costs O(log n) plus what it finds.
 
 use super::{DVec2, Rect};
 
-/// Things in a leaf; about where one more costs as much as one more node.
+/// Things in a leaf: at about this number, one thing more costs as much as one node more.
 const LEAF: usize = 4;
 
 /// Deepest tree: median splits halve, so 2^48 things would fit.
 const DEPTH: usize = 48;
 
-/// What has a box around it.
+/// A thing with a box around it.
 pub trait Boxed {
     /// The smallest box around it.
     fn bounds(&self) -> Rect;
@@ -32,7 +32,7 @@ struct Node {
     second: u32,
 }
 
-/// An index over things with boxes; queries answer with positions in the order in which they were given.
+/// An index over things with boxes; queries return positions in the order in which the things were given.
 #[derive(Clone, Debug, Default)]
 pub struct BoxTree<T = Rect> {
     nodes: Vec<Node>,
@@ -58,7 +58,7 @@ impl<T: Boxed> BoxTree<T> {
         self.items.len()
     }
 
-    /// Whether there is none.
+    /// Whether nothing is indexed.
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }
@@ -92,7 +92,7 @@ impl<T: Boxed> BoxTree<T> {
         self.split(middle, to);
     }
 
-    /// Walks the tree depth first, entering the boxes that `enter` accepts at the time they are reached.
+    /// Walks the tree depth first, and enters a box if `enter` accepts it when it is reached.
     pub fn walk<S>(&self, state: &mut S, enter: impl Fn(&S, &Rect) -> bool, visit: impl Fn(&mut S, &T, usize)) {
         let mut stack = [0u32; DEPTH];
         let mut height = usize::from(!self.nodes.is_empty());
@@ -115,8 +115,8 @@ impl<T: Boxed> BoxTree<T> {
         }
     }
 
-    /// Calls `visit` with what is at most `reach` from `x` by `distance`, which is at least that of its box, and with that distance,
-    /// about the nearest first; it answers with the reach from then on.
+    /// Calls `visit` with each thing at most `reach` from `x`, and its distance, roughly the nearest first; `visit` returns the
+    /// reach from then on. `distance` is a thing's own, at least that of its box.
     pub fn nearest_first(
         &self,
         x: DVec2,
@@ -152,7 +152,7 @@ impl<T: Boxed> BoxTree<T> {
 }
 
 impl BoxTree {
-    /// Visits the boxes within `reach` of `x`, roughly the nearer ones first; `visit` gives the reach from then on.
+    /// Visits the boxes within `reach` of `x`, roughly the nearest first; `visit` returns the reach from then on.
     pub fn near(&self, x: DVec2, reach: f64, mut visit: impl FnMut(usize) -> f64) {
         self.nearest_first(x, reach, |rect| rect.distance(x), |id, _| visit(id));
     }

@@ -1,7 +1,7 @@
 //! Interval arithmetic rounded outwards: the proof behind every bound on an expression.
 //!
 //! # Guarantee
-//! For every operation ∘ and all reals a ∈ A, b ∈ B where a ∘ b is defined, a ∘ b lies in A ∘ B. Where some pair has no
+//! For every operation ∘ and all reals a ∈ A, b ∈ B for which a ∘ b is defined, a ∘ b lies in A ∘ B. If some pair has no
 //! value (division by 0, ln of a negative number), the result is [`Interval::WHOLE`], so that nothing is ever proved
 //! from an undefined value.
 //!
@@ -11,7 +11,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The elementary functions of the standard library are good to about 1 ulp; bounds step out by this share instead.
+/// The elementary functions of the standard library are accurate to about 1 ulp; bounds step out by this larger share.
 const LIBRARY_ERROR: f64 = 4.0 * f64::EPSILON;
 
 /// Beyond this, an argument of sin or cos is known too coarsely (in multiples of π) to say where it peaks.
@@ -47,12 +47,12 @@ impl Interval {
         Self::new(value, value)
     }
 
-    /// Stepped out to the next floats: covers an operation that IEEE 754 rounds correctly.
+    /// The interval stepped out to the next floats, which covers an operation that IEEE 754 rounds correctly.
     fn outward(low: f64, high: f64) -> Self {
         Self::new(low.next_down(), high.next_up())
     }
 
-    /// Stepped out by [`LIBRARY_ERROR`].
+    /// The interval stepped out by [`LIBRARY_ERROR`].
     fn loosely(low: f64, high: f64) -> Self {
         Self::outward(low - LIBRARY_ERROR * low.abs(), high + LIBRARY_ERROR * high.abs())
     }
@@ -72,7 +72,7 @@ impl Interval {
         Self::new(self.low.min(other.low), self.high.max(other.high))
     }
 
-    /// What both allow; `self` where rounding left nothing in common.
+    /// The intersection; `self` if rounding left nothing in common.
     pub fn meet(self, other: Self) -> Self {
         let (low, high) = (self.low.max(other.low), self.high.min(other.high));
         if low <= high { Self { low, high } } else { self }
@@ -121,9 +121,9 @@ impl Interval {
         Self::loosely(self.low.ln(), self.high.ln())
     }
 
-    /// Whether the interval holds offset + 2πk for some whole k, as far as a count of turns tells: up to [`LARGEST_ANGLE`] it is
-    /// off by less than 1e-9. An extremum of sin missed by that little differs by 1e-18 from the end beside it, which
-    /// [`Interval::loosely`] steps over.
+    /// Whether the interval holds offset + 2πk for some whole k, by a count of turns, which up to [`LARGEST_ANGLE`] is off by less
+    /// than 1e-9. An extremum of sin missed by that little differs by 1e-18 from the end beside it, which
+    /// [`Interval::loosely`] covers.
     fn holds_angle(self, offset: f64) -> bool {
         let turns = |angle: f64| (angle - offset) / TAU;
         turns(self.high).floor() >= turns(self.low).ceil()
@@ -201,7 +201,7 @@ impl Interval {
         }
     }
 
-    /// a^p for any fixed p; known for a ≥ 0 only, as in reals.
+    /// a^p for any fixed p; defined for a ≥ 0 only, as for reals.
     pub fn power(self, p: f64) -> Self {
         if self.low < 0.0 || (p < 0.0 && self.low == 0.0) {
             return Self::WHOLE;
@@ -211,7 +211,7 @@ impl Interval {
         Self::new(bounds.low.max(0.0), bounds.high)
     }
 
-    /// a^b for a power that varies; known for a ≥ 0 only, as in reals.
+    /// a^b for a power that varies; defined for a ≥ 0 only, as for reals.
     pub fn power_varying(self, exponent: Self) -> Self {
         if self.low < 0.0 {
             return Self::WHOLE;

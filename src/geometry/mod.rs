@@ -32,7 +32,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// The box that holds nothing; growing it by a point gives that point.
+    /// The empty box; growing it by a point gives that point.
     pub const EMPTY: Self = Self {
         min: DVec2::INFINITY,
         max: DVec2::NEG_INFINITY,
@@ -56,12 +56,12 @@ impl Rect {
         0.5 * (self.min + self.max)
     }
 
-    /// The largest coordinate of its points by magnitude.
+    /// The largest magnitude of a coordinate in the box.
     pub fn largest_coordinate(self) -> f64 {
         self.min.abs().max(self.max.abs()).max_element()
     }
 
-    /// Length of the diagonal; the scale tolerances are relative to.
+    /// Length of the diagonal.
     pub fn diagonal(self) -> f64 {
         self.size().length()
     }

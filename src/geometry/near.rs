@@ -7,7 +7,7 @@
 //!
 //! # Cost
 //! Since biting keeps centres apart, a cell holds O(1) discs and a query or an insertion is O(1). Cells are stored in
-//! blocks of 8 × 8, so a query hashes about one to four times a level.
+//! blocks of 8 × 8, so a query hashes about one to four times per level.
 
 use super::DVec2;
 use rustc_hash::FxHashMap;
@@ -21,7 +21,7 @@ pub struct Disc {
     pub radius: f64,
 }
 
-/// A disc as a query sees it.
+/// A disc that a query found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Near {
     /// Index of the disc, in insertion order.
@@ -38,12 +38,12 @@ pub struct Near {
 #[derive(Debug)]
 pub struct DiscGrid {
     t: f64,
-    /// Disc and the next one in its cell.
+    /// Each disc and the next one in its cell.
     discs: Vec<(Disc, u32)>,
     blocks: FxHashMap<BlockKey, u32>,
-    /// First disc of each cell, 64 cells a block.
+    /// The first disc of each cell, 64 cells per block.
     heads: Vec<[u32; BLOCK_CELLS]>,
-    /// How many discs a level holds, by binary exponent of the radius.
+    /// The number of discs on each level, by binary exponent of the radius.
     level_sizes: Vec<u32>,
 }
 
@@ -60,7 +60,7 @@ pub(super) const BLOCK_SIDE: i64 = 1 << BLOCK_SHIFT;
 pub(super) const BLOCK_CELLS: usize = (BLOCK_SIDE * BLOCK_SIDE) as usize;
 /// Smallest binary exponent of a normal number.
 const LOWEST_LEVEL: i32 = -1022;
-/// Radii are evaluated in floating point: room so that rounding cannot hide a neighbour.
+/// Radii are evaluated in floating point: this room keeps rounding from hiding a neighbour.
 const ROOM: f64 = 1.0 + 1e-6;
 
 impl DiscGrid {
@@ -76,7 +76,7 @@ impl DiscGrid {
         }
     }
 
-    /// How many discs there are.
+    /// The number of discs.
     pub fn len(&self) -> usize {
         self.discs.len()
     }
@@ -126,7 +126,7 @@ impl DiscGrid {
     }
 
     /// Collects into `near` the discs whose interior meets that of `B(centre, reach)`, where `radius` is the radius that a
-    /// disc at `centre` would have. Needs t · `reach` < `radius`, and takes longer the nearer they are.
+    /// disc at `centre` would have. Needs t · `reach` < `radius`, and takes longer the nearer these two are.
     pub fn around(&self, centre: DVec2, radius: f64, reach: f64, near: &mut Vec<Near>) {
         near.clear();
         self.visit(centre, radius, reach, |candidate| {
@@ -149,7 +149,7 @@ impl DiscGrid {
         });
     }
 
-    /// Collects into `near` the discs with a centre closer to `point` than `radius`, the radius that a disc there would have.
+    /// Collects into `near` the discs whose centre is closer to `point` than `radius`, the radius that a disc there would have.
     pub fn within(&self, point: DVec2, radius: f64, near: &mut Vec<Near>) {
         near.clear();
         let radii = [(1.0 - self.t) * radius, (1.0 + self.t) * radius];
@@ -201,8 +201,8 @@ impl DiscGrid {
         self.visit_centres(centre, radii, |cell_size| reach.min(extent + cell_size), visit);
     }
 
-    /// Calls `visit` for every disc whose radius is in a range and whose centre is within what `reach` gives for the size of
-    /// a level's cells.
+    /// Calls `visit` for every disc whose radius is in a range and whose centre is within a distance, which `reach` returns for the
+    /// size of a level's cells.
     fn visit_centres(
         &self,
         centre: DVec2,
@@ -252,8 +252,8 @@ impl DiscGrid {
     }
 }
 
-/// The two points, relative to the centre of a circle of `radius`, where it crosses the circle `other`; the same point
-/// twice where rounding makes them touch.
+/// The two points where a circle of `radius` crosses the circle `other`, relative to its centre; the same point twice if
+/// rounding makes the circles touch.
 pub fn circle_intersections(radius: f64, other: &Near) -> [DVec2; 2] {
     let distance = other.distance_squared.sqrt();
     let along = (other.distance_squared + radius * radius - other.radius * other.radius) / (2.0 * distance);
@@ -264,7 +264,7 @@ pub fn circle_intersections(radius: f64, other: &Near) -> [DVec2; 2] {
     [foot - offset, foot + offset]
 }
 
-/// How far from the line through their centres two circles of radius `a` and `b` at that distance meet; 0 where they do not.
+/// How far from the line through their centres two circles of radius `a` and `b` at that distance meet; 0 if they do not.
 pub fn meeting_height(distance: f64, a: f64, b: f64) -> f64 {
     let along = 0.5 * (distance + (a - b) * (a + b) / distance);
     ((a - along) * (a + along)).max(0.0).sqrt()

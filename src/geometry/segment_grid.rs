@@ -1,13 +1,13 @@
 //! Near-queries among segments that come and go: the index behind a front of mesh edges.
 //!
 //! # Idea
-//! A segment is filed by its middle in one hash grid per power of two of its length, in cells larger than the segment. A
-//! query by box looks, on every level in use, at the cells whose segments could reach the box: the box grown by half a cell.
-//! Where the box spans more blocks of a level than the level has, the level's blocks are looked through instead, so that
+//! A segment is filed by its middle in one hash grid per power of two of its length, in cells larger than the segment. On every
+//! level in use, a query by box visits the cells whose segments could reach the box: those of the box grown by half a cell.
+//! If the box spans more blocks of a level than the level has, the query goes through the level's blocks instead, so that
 //! a large box over minute segments costs no more than the blocks there are.
 //!
 //! # Cost
-//! O(1) an insertion or removal; a query costs the cells it covers plus what they hold.
+//! O(1) for an insertion or removal; a query costs the cells it covers plus what they contain.
 
 use super::near::{
     BLOCK_CELLS, BLOCK_SHIFT, BLOCK_SIDE, BlockKey, cell_in_block, cell_of, inverse_cell_size, level_of,
@@ -15,13 +15,13 @@ use super::near::{
 use super::{DVec2, Rect};
 use rustc_hash::FxHashMap;
 
-/// Segments by small whole numbers of the caller's choice, which may be used again after removal.
+/// Segments, each under a small whole number of the caller's choice, which may be used again after removal.
 #[derive(Debug, Default)]
 pub struct SegmentGrid {
     /// By the caller's number.
     entries: Vec<Entry>,
     blocks: FxHashMap<BlockKey, u32>,
-    /// First segment of each cell, 64 cells a block.
+    /// The first segment of each cell, 64 cells per block.
     heads: Vec<[u32; BLOCK_CELLS]>,
     /// Levels in the order of their cell size.
     levels: Vec<Level>,
@@ -52,8 +52,8 @@ const ABSENT: Entry = Entry {
     after: NONE,
     level: 0,
 };
-/// By how many cells a box grows: half a segment, plus room for the rounding of cell coordinates, which at the finest
-/// resolution a mesher takes are good to 2⁻¹⁰ of a cell.
+/// By how many cells a box grows: half a segment, plus room for the rounding of cell coordinates, which are accurate to
+/// 2⁻¹⁰ of a cell at the finest resolution that a mesher accepts.
 const REACH: f64 = 0.5 + 1.0 / 256.0;
 
 impl SegmentGrid {

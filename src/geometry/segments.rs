@@ -1,7 +1,7 @@
 //! A static index over segments: which meet a box, which is nearest to a point, which a ray hits first.
 //!
 //! A [`BoxTree`] of segments, so that every query costs O(log n) plus what it finds, however unevenly they are spread.
-//! [`SegmentIndex::right_of`] is exact; it is what faces, nesting and inside tests stand on.
+//! [`SegmentIndex::right_of`] is exact; faces, nesting and inside tests rest on it.
 
 use super::boxes::{BoxTree, Boxed};
 use super::predicates::orient2d;
@@ -27,7 +27,7 @@ pub fn closest_on_segment(ends: [DVec2; 2], x: DVec2) -> DVec2 {
 /// What a point sees when it looks along +x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Seen {
-    /// The point lies on this segment (or one of its ends); of several, any.
+    /// The point lies on this segment (or one of its ends); any of them if there are several.
     On(usize),
     /// The first segment to the right, and whether the point is on its left when it is walked from first to second end.
     Segment(usize, bool),
@@ -55,7 +55,7 @@ pub struct SegmentIndex {
 }
 
 impl SegmentIndex {
-    /// Indexes `segments`; queries answer with positions in this order. O(n log n).
+    /// Indexes `segments`; queries return positions in this order. O(n log n).
     pub fn new(segments: impl IntoIterator<Item = [DVec2; 2]>) -> Self {
         let tree = BoxTree::new(segments);
         Self { tree }
@@ -66,7 +66,7 @@ impl SegmentIndex {
         self.tree.len()
     }
 
-    /// Whether there is none.
+    /// Whether no segment is indexed.
     pub fn is_empty(&self) -> bool {
         self.tree.is_empty()
     }
@@ -118,8 +118,8 @@ impl SegmentIndex {
         best
     }
 
-    /// Calls `visit` with segments at most `reach` from `x` and their distances, about the nearest first; it answers with
-    /// the reach from then on.
+    /// Calls `visit` with segments at most `reach` from `x` and their distances, roughly the nearest first; `visit` returns the
+    /// reach from then on.
     pub fn nearest_first(&self, x: DVec2, reach: f64, visit: impl FnMut(usize, f64) -> f64) {
         let distance = |ends: &Ends| closest_on_segment(*ends, x).distance(x);
         self.tree.nearest_first(x, reach, distance, visit);
@@ -241,7 +241,7 @@ pub(crate) fn meets_box([a, b]: [DVec2; 2], bounds: &Rect) -> bool {
     !(sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0))
 }
 
-/// Whether the ray reaches the box no later than `to` times its direction; a box it grazes counts.
+/// Whether the ray reaches the box within `to` times its direction; a box that it grazes counts.
 fn ray_meets_box(origin: DVec2, direction: DVec2, to: f64, bounds: &Rect) -> bool {
     let (mut enter, mut leave) = (0.0f64, to);
     for axis in 0..2 {

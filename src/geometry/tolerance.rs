@@ -1,17 +1,17 @@
 //! Every tolerance of the project, each relative to a length named in its comment, each with its reason.
 
 /// Certificate: biting circles are enlarged, and packing circles shrunk, by this share of their radius. Centres are
-/// intersections of circles, computed to a few ulp of the coordinates; 1e-9 leaves that room down to circles of a
-/// millionth of the domain and is far below anything that shows in a mesh.
+/// intersections of circles, computed to a few ulp of the coordinates; 1e-9 is enough for that down to circles of a
+/// millionth of the domain, and far below anything that shows in a mesh.
 pub const CERTIFICATE: f64 = 1e-9;
 
 /// Certificate: the distance of two centres may fall short of the sum of their packing radii, or be beyond the bounds of nn,
-/// by so many ulp of their coordinates (an ulp being [`f64::EPSILON`] of the larger). What rounding can take, proved: a centre that is an
-/// intersection of circles is one sum of two vectors, each axis rounded by half an ulp, which moves it by √½; one on a
-/// segment is start + (end − start) / length · position, at most 5 in all since no side exceeds twice the largest
-/// coordinate. Two values of f, which Lemma 5.4 compares, are each off by 1.5 ulp of a distance of at most 2√2 of that
-/// coordinate, and count by c_p ≤ 1/2: another 4.3. More than [`CERTIFICATE`] only for circles under a millionth of the
-/// coordinates.
+/// by this number of ulp of their coordinates (an ulp being [`f64::EPSILON`] of the larger). This is what rounding can take,
+/// proved: a centre that is an intersection of circles is one sum of two vectors, each axis rounded by half an ulp, which
+/// moves it by √½; one on a segment is start + (end − start) / length · position, at most 5 in all since no side exceeds
+/// twice the largest coordinate. Two values of f, which Lemma 5.4 compares, are each off by 1.5 ulp of a distance of at most
+/// 2√2 of that coordinate, and count by c_p ≤ 1/2: another 4.3. This exceeds [`CERTIFICATE`] only for circles under a
+/// millionth of the coordinates.
 pub const CENTRE_ULPS: f64 = 10.0;
 
 /// Biting: a point counts as inside an open circle only if it is inside the one shrunk by this share of its radius.
@@ -19,7 +19,7 @@ pub const CENTRE_ULPS: f64 = 10.0;
 /// vertices, and a hundredth of [`CERTIFICATE`] can never make the certificate fail.
 pub const COVERED: f64 = 1e-11;
 
-/// Biting by the rule of the later point: where a line leaves what is eaten is found to this share of the radius there: a
+/// Biting by the rule of the later point: the place where a line leaves what is eaten is found to this share of the radius there, a
 /// hundredth of [`COVERED`].
 pub const EATEN: f64 = 1e-13;
 
@@ -28,27 +28,27 @@ pub const EATEN: f64 = 1e-13;
 pub const RESOLUTION: f64 = 1.0 / (1u64 << 42) as f64;
 
 /// Domain: a grid cell counts as met by every segment that comes within this share of a cell. Cell coordinates are
-/// computed to some 1e-12 of a cell, so no segment is missed; exact predicates decide within the cells met.
+/// computed to about 1e-12 of a cell, so no segment is missed; exact predicates decide within the cells met.
 pub const GRID_SLACK: f64 = 1e-6;
 
-/// Domain: an angle of at most this many radians between two segments is taken for none, as in the independent check.
+/// Domain: an angle of at most this many radians between two segments counts as 0, as in the independent check.
 pub const NO_ANGLE: f64 = 1e-12;
 
 /// Domain: an input angle is acute when it is less than 60° by more than this many radians, so that the corners of
-/// equilateral triangles, computed to some 1e-16, are not.
+/// equilateral triangles, computed to about 1e-16, are not.
 pub const ACUTE_MARGIN: f64 = 1e-9;
 
 /// Short lists of the spacing: a feature is kept while it comes within this share of what decides. Distances are
-/// computed to a few ulp; a feature more, that cannot win, costs nothing but time.
+/// computed to a few ulp; a feature too many costs nothing but time.
 pub const SHORTLIST: f64 = 1e-12;
 
-/// Short lists of the spacing: a point counts as in a cell that it is beside by so many ulp of the largest coordinate. A cell's side
-/// is a middle of two others, 40 times over, each time rounded by half an ulp; a point's place in the root by two ulp.
+/// Short lists of the spacing: a point counts as in a cell if it is beside it by at most this many ulp of the largest coordinate. A
+/// cell's side is halved from the root up to 40 times, each time rounded by half an ulp; a point's place in the root by two ulp.
 pub const CELL_ULPS: f64 = 64.0;
 
 /// Matching a mesh to a domain: coordinates that differ by at most this many ulp of the largest coordinate are the same
 /// vertex. Files keep doubles whole; other programs may shift a domain and back. Boundary edges may lie beside their
-/// segments by as much, and so the area may differ by that times the length of the boundary.
+/// segments by as much, so the area may differ by that times the length of the boundary.
 pub const SAME_VERTEX_ULPS: f64 = 4.0;
 
 /// Matching a mesh to a domain: a mesh edge lies along an input segment if it leaves it by at most this share of its
@@ -56,14 +56,14 @@ pub const SAME_VERTEX_ULPS: f64 = 4.0;
 pub const ALONG_SEGMENT: f64 = 1e-9;
 
 /// Certificate: areas of triangles must sum to the domain's within this relative difference; the sum of a million
-/// rounded areas is good to about 1e-12.
+/// rounded areas is accurate to about 1e-12.
 pub const AREA: f64 = 1e-9;
 
 /// Certificate: an angle between segments of less than 90° by at most this many degrees counts as 90°, so that a rotated
 /// square keeps the paper's hypothesis.
 pub const RIGHT_ANGLE_DEG: f64 = 1e-6;
 
-/// Domain: step of the grid on which `--repair` places crossings, relative to the larger side of the PSLG: a hundredth of
+/// Domain: step of the grid on which repair places crossings, relative to the larger side of the PSLG: a hundredth of
 /// a millimetre on forty kilometres. Coarse enough that ends meant to touch do not leave slivers of a few ulp.
 pub const REPAIR_GRID: f64 = 1.0 / (1u64 << 32) as f64;
 
@@ -75,13 +75,13 @@ pub const LOWER_BOUND: f64 = 16.0 * f64::EPSILON;
 /// segments are rounded, and biting shrinks circles by far less ([`COVERED`]).
 pub const ON_CIRCLE: f64 = 1e-6;
 
-/// Figures: parts of a circle, in radians, and of a segment, as a share of it, that are shorter are rounding where others meet.
+/// Figures: shorter parts of a circle, in radians, or of a segment, as a share of it, are rounding errors where others meet.
 pub const NOTHING: f64 = 1e-6;
 
-/// Figures: corners of a triangle are pulled in by this share of the way to its middle before they are looked at, since corners on
-/// a segment lie beside it by rounding and would be hidden by it.
+/// Figures: corners of a triangle are moved by this share of the way to its middle before it is asked what they see, since rounding
+/// puts corners on a segment beside it, which would then hide them.
 pub const PULLED_IN: f64 = 1e-6;
 
-/// Replay: a centre lies on a side of a notch if its direction from the notch's vertex is off by less than so many radians:
+/// Replay: a centre lies on a side of a notch if its direction from the notch's vertex is off by less than this many radians:
 /// centres on segments are rounded.
 pub const ON_SIDE: f64 = 1e-9;

@@ -5,7 +5,7 @@ use crate::geometry::{DVec2, predicates};
 use crate::mesh::{NONE, Piece};
 
 impl Refinable {
-    /// Finds what the point `x`, strictly inside `triangle` or on an edge of it that is no piece, would tear out.
+    /// Finds the cavity of the point `x`, which lies strictly inside `triangle` or on an edge of it that is not a piece.
     ///
     /// The triangles whose circumcircles hold `x`, reached without crossing a piece: their union is star-shaped from x.
     pub fn dig(&self, triangle: u32, x: DVec2, cavity: &mut Cavity) {
@@ -31,7 +31,7 @@ impl Refinable {
         predicates::in_circle(a, b, c, x) > 0.0
     }
 
-    /// Puts the point a cavity was dug for into it, and returns the new vertex.
+    /// Puts the point into its cavity, and returns the new vertex.
     pub fn insert(&mut self, cavity: &Cavity) -> u32 {
         let vertex = self.points.len() as u32;
         self.points.push(cavity.point);
@@ -66,7 +66,7 @@ impl Refinable {
         vertex
     }
 
-    /// The point at a share of a segment from its first vertex, as exactly as rounding lets it.
+    /// The point at a share of a segment from its first vertex, as exactly as rounding allows.
     pub fn point_on(&self, piece: u32, share: f64) -> DVec2 {
         let [from, to] = self.segment_ends[self.piece(piece).segment as usize].map(|vertex| self.point(vertex));
         if share <= 0.5 {
@@ -76,7 +76,7 @@ impl Refinable {
         }
     }
 
-    /// Splits a piece at a share of its segment, and returns the new vertex. `None`, and nothing is changed, where rounding
+    /// Splits a piece at a share of its segment, and returns the new vertex. Returns `None`, and changes nothing, if rounding
     /// would turn a triangle of the domain over. The part behind the new vertex is the last piece.
     pub fn split(&mut self, piece: u32, share: f64) -> Option<u32> {
         let x = self.point_on(piece, share);
@@ -152,7 +152,7 @@ impl Refinable {
         [edge, 3 * new]
     }
 
-    /// Flips edges that are no pieces until each of `todo`, and each that a flip concerns, is Delaunay; then says what
+    /// Flips edges that are not pieces until each of `todo`, and each that a flip concerns, is Delaunay; then reports what
     /// changed.
     pub(super) fn legalise(&mut self, mut todo: Vec<u32>) {
         while let Some(edge) = todo.pop() {
@@ -197,7 +197,7 @@ impl Refinable {
         self.out[d as usize] = edge;
     }
 
-    /// A triangle whose fields are to be set, but for its face.
+    /// A triangle of that face whose other fields are still to be set.
     pub(super) fn new_triangle(&mut self, face: u32) -> u32 {
         if let Some(triangle) = self.unused.pop() {
             self.face_of[triangle as usize] = face;

@@ -48,7 +48,7 @@ impl Refinable {
         mesh
     }
 
-    /// Whether a piece is no Delaunay edge: the far corner of one triangle lies inside the circle of the other.
+    /// Whether a piece is not a Delaunay edge: the far corner of one triangle lies inside the circle of the other.
     fn is_forced(&self, edge: u32) -> bool {
         let twin = self.twin[edge as usize];
         let [a, b] = self.ends(edge).map(|vertex| self.point(vertex));

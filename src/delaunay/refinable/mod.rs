@@ -1,12 +1,12 @@
-//! A constrained Delaunay triangulation that takes points one at a time, splits pieces, and gives up free vertices.
+//! A constrained Delaunay triangulation that takes points one at a time, splits pieces, and removes free vertices.
 //!
 //! Half-edges 3t, 3t + 1, 3t + 2 run counter-clockwise round triangle t, outside and holes included, so that a piece split
 //! there keeps the whole plane triangulated and the result is the same as [`super::triangulate`] of all points. Every
 //! triangle carries the face of the domain it lies in. All decisions are exact predicates.
 //!
-//! A piece is split by topology: its two triangles become four, whichever side of the line rounding put the point on. Where
-//! one of the four would not be counter-clockwise, the split is refused if that one is in the domain, so an invalid mesh cannot
-//! arise. Outside, it stays as it is: a sliver of rounding errors, such as one between the convex hull and points of one side that a
+//! A piece is split by topology: its two triangles become four, whichever side of the line rounding put the point on. If one of
+//! the four would not be counter-clockwise and is in the domain, the split is refused, so an invalid mesh cannot arise. If it is
+//! outside, it stays as it is: a sliver of rounding errors, such as one between the convex hull and points of one side that a
 //! rotation has left not quite on a line. No flip touches it, and since nothing is taken away, the triangles around a vertex
 //! stay connected.
 
@@ -30,7 +30,7 @@ pub struct Refinable {
     input_vertices: usize,
     /// The ends of each segment of the domain.
     segment_ends: Vec<[u32; 2]>,
-    /// The vertex where each half-edge starts; [`NONE`] in triangles that are no more.
+    /// The vertex where each half-edge starts; [`NONE`] in unused triangles.
     origin: Vec<u32>,
     /// The half-edge on the other side, [`NONE`] on the convex hull.
     twin: Vec<u32>,
@@ -43,7 +43,7 @@ pub struct Refinable {
     /// A half-edge out of each vertex; [`NONE`] for vertices that have been removed.
     out: Vec<u32>,
     pieces: Vec<Span>,
-    /// Triangles that are no more, to be used again.
+    /// Unused triangles, to be used again.
     unused: Vec<u32>,
     /// Whether splits of pieces have turned triangles outside over.
     has_overturned: bool,
@@ -64,7 +64,7 @@ struct Span {
 /// Where a walk towards a point ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
-    /// In this triangle, or on one of its edges that is no piece.
+    /// In this triangle, or on one of its edges that is not a piece.
     Triangle(u32),
     /// On this piece, or behind it: the walk does not cross pieces.
     Piece(u32),
@@ -72,7 +72,7 @@ pub enum Location {
     Vertex(u32),
 }
 
-/// What a new point tears out: the triangles whose circumcircles hold it, as far as pieces let it see.
+/// The cavity of a new point: the triangles whose circumcircles hold it, as far as it sees past pieces.
 #[derive(Clone, Debug, Default)]
 pub struct Cavity {
     point: DVec2,
@@ -183,13 +183,13 @@ impl Refinable {
         self.points[vertex as usize]
     }
 
-    /// The corners of a triangle, [`NONE`] thrice if it is no more.
+    /// The corners of a triangle, three times [`NONE`] if it is unused.
     pub fn triangle(&self, triangle: u32) -> [u32; 3] {
         let first = 3 * triangle as usize;
         [self.origin[first], self.origin[first + 1], self.origin[first + 2]]
     }
 
-    /// Whether a triangle is there and belongs to the domain.
+    /// Whether a triangle is in use and belongs to the domain.
     pub fn is_inside(&self, triangle: u32) -> bool {
         self.origin[3 * triangle as usize] != NONE && self.inside[self.face_of[triangle as usize] as usize]
     }

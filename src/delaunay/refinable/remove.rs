@@ -67,7 +67,7 @@ impl Refinable {
         triangle
     }
 
-    /// Whether the corner `tip` turns left and its triangle holds no further corner, on its rim neither.
+    /// Whether the corner `tip` turns left and its closed triangle holds no further corner.
     fn is_ear(&self, polygon: &[Side], tip: usize) -> bool {
         let count = polygon.len();
         let corner = |k: usize| self.point(polygon[k % count].from);
