@@ -11,8 +11,8 @@ pub struct Min {
 }
 
 impl Min {
-    /// The smallest of `parts` on `bounds`. A part proved nowhere below another one there is left out, so that it does
-    /// not raise the Lipschitz constant; what is left may be a single part.
+    /// The smallest of `parts` on `bounds`. A part that is proved to be nowhere below another one there is left out, so that
+    /// it does not raise the Lipschitz constant; a single part may be left.
     pub fn of(parts: Vec<Arc<dyn Spacing>>, bounds: Rect) -> Arc<dyn Spacing> {
         let mut kept: Vec<Arc<dyn Spacing>> = Vec::with_capacity(parts.len());
         for part in parts {
@@ -54,7 +54,7 @@ impl Spacing for Min {
     }
 
     fn is_geodesic(&self) -> bool {
-        // No way inside the domain is shorter than the straight line, so that those of the others hold too.
+        // No way inside the domain is shorter than the straight line, so the constants of the others hold too.
         self.parts.iter().any(|part| part.is_geodesic())
     }
 
@@ -77,7 +77,7 @@ impl Spacing for Min {
     }
 }
 
-/// f(x) = factor · g(x): with a factor under 1 the cheapest way to a smaller Lipschitz constant.
+/// f(x) = factor · g(x). With a factor under 1 this is the cheapest way to a smaller Lipschitz constant.
 #[derive(Clone)]
 pub struct Scaled {
     factor: f64,

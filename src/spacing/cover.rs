@@ -5,10 +5,10 @@ use crate::geometry::segments::meets_box;
 use crate::geometry::{DVec2, Rect};
 use crate::spacing::{Spacing, SpacingError};
 
-/// Deepest cell: 2⁻⁴⁵ of the domain, where coordinates end.
+/// Deepest cell: 2⁻⁴⁵ of the domain, about the resolution of coordinates.
 pub const DEPTH: usize = 45;
 
-/// Most cells [`check_positive`] looks at.
+/// Most cells that [`check_positive`] visits.
 const BUDGET: usize = 1_000_000;
 
 /// A cell that meets Ω.
@@ -16,7 +16,7 @@ const BUDGET: usize = 1_000_000;
 pub struct Cell {
     /// Where.
     pub rect: Rect,
-    /// The segments that meet it; without any, the whole cell lies inside Ω.
+    /// The segments that meet it; if there are none, the whole cell lies inside Ω.
     pub crossing: Vec<u32>,
 }
 
@@ -47,7 +47,7 @@ impl Cell {
         self.rect.quarters().into_iter().filter_map(meeting)
     }
 
-    /// A point of the cell and of Ω: the centre if it will do, else a point of a segment.
+    /// A point of the cell and of Ω: the centre if it is in Ω, else a point of a segment.
     pub fn point(&self, domain: &Domain) -> DVec2 {
         let centre = self.rect.centre();
         match self.crossing.first() {

@@ -3,7 +3,7 @@
 /// Why there is no spacing, or no integral of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpacingError {
-    /// The text is no SPEC.
+    /// The text is not a SPEC.
     #[error("spacing `{spec}`, column {column}: {message}")]
     Parse {
         /// The text.
@@ -18,10 +18,10 @@ pub enum SpacingError {
     UnknownKind {
         /// What was asked for.
         kind: String,
-        /// What there is.
+        /// The kinds there are.
         known: String,
     },
-    /// The mesh that the spacing is to come from will not do.
+    /// The mesh from which the spacing is to come is not usable.
     #[error("spacing `{spec}`: {message}")]
     Mesh {
         /// The spacing.
@@ -52,7 +52,7 @@ pub enum SpacingError {
         /// Where.
         y: f64,
     },
-    /// f is positive where it was looked at, but no lower bound proves it nearby.
+    /// f is positive where it was evaluated, but no lower bound proves it nearby.
     #[error(
         "spacing is {value:?} at ({x:?}, {y:?}), and nothing proves it positive and finite around there; write it so that it \
          stays above a constant, such as max(1e-3, ...)"
@@ -80,7 +80,7 @@ pub enum SpacingError {
     },
     /// f is so small on so long a stretch that its integral cannot be resolved.
     #[error(
-        "spacing is too small near ({x:?}, {y:?}), where it is {value:e}, to integrate 1 / f^2: no mesh so fine could be held; \
+        "spacing is too small near ({x:?}, {y:?}), where it is {value:e}, to integrate 1 / f^2: no memory holds so fine a mesh; \
          choose a larger one, or move apart what nearly touches"
     )]
     TooSmall {
@@ -91,14 +91,14 @@ pub enum SpacingError {
         /// Where.
         y: f64,
     },
-    /// What distances inside the domain do not go with.
+    /// Something that distances inside the domain cannot be combined with.
     #[error("lfs:geodesic {message}")]
     Geodesic {
         /// What that is, and what to do.
         message: &'static str,
     },
     /// The integral was not found to the tolerance.
-    #[error("the integral of 1 / f^2 has relative error {error} where {tolerance} was asked for; ask for less")]
+    #[error("the integral of 1 / f^2 has relative error {error}, and {tolerance} was asked for; ask for less")]
     NotConverged {
         /// What was asked for.
         tolerance: f64,

@@ -1,6 +1,6 @@
 //! Control spacing f (§2): positive, finite, α-Lipschitz.
 //!
-//! A SPEC ([`Spec`]) names a spacing; [`build`] makes of it the f a mesher sees:
+//! A SPEC ([`Spec`]) names a spacing; [`build`] makes the f that a mesher sees from it:
 //!
 //! 1. the function itself: [`Uniform`], [`Lfs`] (Definition 2.1), [`GeodesicLfs`] (its footnote), [`Expression`], [`Hessian`] (the
 //!    nsf of §2.2) and [`Nodal`], the same for a field on an earlier mesh, [`EdgeLength`] and [`NearestNeighbour`] of an earlier
@@ -9,9 +9,9 @@
 //! 3. limited to the Lipschitz constant [`Options::alpha`] by [`limit`] (§2.3).
 //!
 //! With [`GeodesicLfs`] distances are measured inside the domain: it takes the place of lfs in 2, and [`Spacing::lipschitz`] means
-//! the length of ways there. Who counts on it in the plane must ask [`Spacing::is_geodesic`].
+//! the length of ways there. Code that relies on it in the plane must ask [`Spacing::is_geodesic`].
 //!
-//! [`integrate`] gives ∫_Ω dA / f², which Lemma 5.10 and Theorem 5.11 measure meshes by.
+//! [`integrate`] computes ∫_Ω dA / f², by which Lemma 5.10 and Theorem 5.11 measure meshes.
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
@@ -54,7 +54,7 @@ pub trait Spacing: Send + Sync {
     fn at(&self, x: DVec2) -> f64;
 
     /// α: |f(x) − f(y)| ≤ α ‖x − y‖ for all x, y, proved for the function as evaluated, never sampled.
-    /// Infinite where nothing is proved; gradient limiting makes it finite.
+    /// Infinite if nothing is proved; gradient limiting makes it finite.
     fn lipschitz(&self) -> f64;
 
     /// Whether distances in [`Spacing::lipschitz`] are measured inside the domain: α times the length of the shortest way from x
@@ -68,26 +68,26 @@ pub trait Spacing: Send + Sync {
         None
     }
 
-    /// A proved lower bound of f on the closed box: by default what the Lipschitz constant gives from the centre.
+    /// A proved lower bound of f on the closed box: by default from f at the centre and the Lipschitz constant.
     fn lower_bound(&self, cell: Rect) -> f64 {
         self.at(cell.centre()) - self.lipschitz() * 0.5 * cell.diagonal()
     }
 
-    /// The same where f at the box's centre is known.
+    /// The same if f at the box's centre is known.
     fn lower_bound_from(&self, cell: Rect, _at_centre: f64) -> f64 {
         self.lower_bound(cell)
     }
 
-    /// A proved upper bound of f on the closed box: by default what the Lipschitz constant gives from the centre.
+    /// A proved upper bound of f on the closed box: by default from f at the centre and the Lipschitz constant.
     fn upper_bound(&self, cell: Rect) -> f64 {
         self.at(cell.centre()) + self.lipschitz() * 0.5 * cell.diagonal()
     }
 }
 
-/// How [`build`] turns a SPEC into the f a mesher sees.
+/// How [`build`] turns a SPEC into the f that a mesher sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The Lipschitz constant f is limited to: t / c_b. Infinite for no limiting.
+    /// The Lipschitz constant that f is limited to: t / c_b. Infinite for no limiting.
     pub alpha: f64,
     /// Whether f is capped by lfs, as §5 needs. Default true.
     pub lfs_cap: bool,
@@ -132,7 +132,7 @@ impl Options {
     }
 }
 
-/// A control spacing function f as a mesher sees it.
+/// A control spacing function f, as a mesher sees it.
 #[derive(Clone)]
 pub struct ControlSpacing {
     /// The SPEC in canonical form; empty for a function in code.
@@ -171,7 +171,7 @@ pub fn build(spec: &str, domain: &Domain, options: &Options) -> Result<ControlSp
     build_with(spec, domain, options, || Ok(Arc::new(lfs_of(domain)?)))
 }
 
-/// As [`build`], with the domain's `lfs` from whoever has it already.
+/// As [`build`], for callers who have the domain's `lfs` already.
 ///
 /// # Errors
 /// Everything in [`SpacingError`].
@@ -191,7 +191,7 @@ pub fn build_with(
     })
 }
 
-/// The same of a function in code.
+/// The same for a function in code.
 ///
 /// # Errors
 /// Everything in [`SpacingError`].

@@ -42,7 +42,7 @@ fn random_point(random: &mut impl Rng) -> DVec2 {
     DVec2::new(random.random(), random.random())
 }
 
-/// A wheel with `teeth` of radius 1.1 on a disc of radius 1: many features of one size, four vertices a tooth.
+/// A wheel with `teeth` of radius 1.1 on a disc of radius 1: many features of one size, four vertices per tooth.
 pub fn gear(teeth: usize) -> (Vec<DVec2>, Vec<[usize; 2]>) {
     let count = 4 * teeth;
     let corner = |index: usize| {

@@ -1,4 +1,4 @@
-//! Text → [`Program`]: a precedence-climbing parser whose errors say the column.
+//! Text → [`Program`]: a precedence-climbing parser whose errors name the column.
 
 use crate::spacing::expression::program::{Binary, FUNCTIONS, Function, Program, Unary};
 
@@ -12,7 +12,7 @@ pub struct GrammarError {
     pub message: String,
 }
 
-/// How deep parentheses may nest: keeps the parser's own stack small.
+/// How deep parentheses may nest, which keeps the parser's own stack small.
 const NESTING: usize = 64;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +47,7 @@ struct Parser<'a> {
 /// Compiles an expression in x and y; the grammar is that of [`Program`]'s module.
 ///
 /// # Errors
-/// With column: unknown names, missing operands or parentheses, two operands without an operator, wrong numbers of
+/// With the column: unknown names, missing operands or parentheses, two operands without an operator, wrong numbers of
 /// arguments, numbers out of range, expressions nested too deeply.
 pub fn compile(text: &str) -> Result<Program, GrammarError> {
     let mut parser = Parser {
@@ -282,7 +282,7 @@ mod tests {
         ] {
             assert_eq!(at(text, 0.0, 0.0), value, "{text}");
         }
-        // What is no exponent is a name.
+        // Anything but an exponent is a name.
         assert_eq!(told("2e"), "column 2: an operator is missing before `e`");
         assert_eq!(told("2e+x"), "column 2: an operator is missing before `e`");
         assert_eq!(told("1.5.2"), "column 4: an operator is missing before the number 0.2");

@@ -1,7 +1,7 @@
 //! `hessian:EXPRESSION;eps=E`: the numerical spacing nsf of §2.2 for a known u.
 //!
 //! # Idea
-//! > f(x) = √(C eps / |λ|max(H(x))), C = 6, not under `min` and not over `max`,
+//! > f(x) = √(C eps / |λ|max(H(x))), C = 6, not below `min` and not above `max`,
 //!
 //! H being the Hessian of u at x, by automatic differentiation of second order (`jet.rs`).
 //!
@@ -17,20 +17,20 @@
 //! Jung's theorem ρ ≤ h / √3 for a longest edge h, so the error is at most M h² / 6. This is sharp: u = ½ M ‖x‖² on an
 //! equilateral triangle attains it. (On an edge alone it would be M h² / 8.)
 //!
-//! C belongs to the longest edge h, and not to R, which would give C = 2, because f is what the mesh's edges are asked to
-//! be: a mesh of equilateral triangles with edges f has the error eps, no more and no less. A mesher's edges are about
+//! C belongs to the longest edge h, and not to R, which would give C = 2, because f is the length that the mesh's edges are asked
+//! to have: a mesh of equilateral triangles with edges f has the error eps, no more and no less. A mesher's edges are about
 //! c_b f long. What biting guarantees: the circumcentre of a triangle without the boundary nearby lies in a biting circle, so
 //! R ≤ c_b f / (1 − t) and the error is at most 3 (c_b / (1 − t))² eps, as far as H is constant there; at the defaults of t and
 //! c_b that is 3 eps.
 //!
 //! # Bounds
 //! Where H vanishes f = `max`; where H is infinite, as at the singularity of a corner, f = `min`. By default `max` is the
-//! longer side of the domain's box, which any spacing larger than the domain stands for, and `min` is [`SMALLEST`] of it.
-//! Kinks of abs, min and max in u count by their sides alone. Where u itself has no finite value there is no spacing.
+//! longer side of the domain's box, since larger spacings mean the same, and `min` is [`SMALLEST`] of it.
+//! Kinks of abs, min and max in u count by their sides alone. If u itself has no finite value somewhere, there is no spacing.
 //!
 //! # Guarantee
-//! As in `proved.rs`: cells enclose f, and the Lipschitz constant is proved where one of reasonable size was found,
-//! infinite otherwise; gradient limiting makes it finite.
+//! As in `proved.rs`: cells enclose f, and the Lipschitz constant is proved if one of reasonable size was found,
+//! and infinite otherwise; gradient limiting makes it finite.
 //!
 //! # Reference
 //! S. Waldron, "The error in linear interpolation at the vertices of a simplex", SIAM J. Numer. Anal. 35, 1998, for the sharp
@@ -45,8 +45,8 @@ use crate::spacing::expression::proved::{Formula, Proved};
 /// C: the square of a longest edge times |λ|max, over the error of linear interpolation, at its smallest.
 pub const INTERPOLATION: f64 = 6.0;
 
-/// `min` as a share of the longer side of the domain's box, where none is given: 10⁸ triangles if f were so small
-/// everywhere, and 30 000 along a line across.
+/// `min` as a share of the longer side of the domain's box, if none is given: there would be 10⁸ triangles if f were so small
+/// everywhere, and 30 000 if along a line across.
 pub const SMALLEST: f64 = 1e-4;
 
 /// What turns |λ|max into a length.
@@ -56,7 +56,7 @@ pub struct Tolerance {
     pub eps: f64,
     /// f is nowhere smaller, in the domain's unit of length; by default 1e-4 of the longer side of its box.
     pub min: Option<f64>,
-    /// f is nowhere larger; by default the longer side of the domain's box, or `min` where that is larger.
+    /// f is nowhere larger; by default the longer side of the domain's box, or `min` if that is larger.
     pub max: Option<f64>,
 }
 
@@ -106,7 +106,7 @@ pub struct Numerical {
 impl Numerical {
     fn length<N: Scalar>(eps: f64, [min, max]: [f64; 2], eigenvalue: N) -> N {
         let for_length = |length: f64| N::constant(INTERPOLATION * eps / (length * length));
-        // In this order what is not a number counts as large.
+        // In this order, what is not a number counts as large.
         let most = eigenvalue.binary(Binary::Min, for_length(min));
         let within = most.binary(Binary::Max, for_length(max));
         let square = N::constant(INTERPOLATION * eps).binary(Binary::Divide, within);
@@ -118,7 +118,8 @@ impl Formula for Numerical {
     /// A cell costs ten times as much as that of an expression.
     const BUDGET: usize = 1_000;
 
-    /// Ten times what lfs may have: where H changes sign or is singular f is steep in few places, for which cells know better.
+    /// Ten times the limit of other formulas: where H changes sign or is singular, f is steep in few places, and cells bound
+    /// it better.
     const STEEPEST: f64 = 10.0;
 
     fn run<N: Scalar>(&self, x: N, y: N) -> N {

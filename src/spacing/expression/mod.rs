@@ -17,7 +17,7 @@ use crate::spacing::expression::proved::{Formula, Proved};
 pub type Expression = Proved<Program>;
 
 impl Formula for Program {
-    /// Some 20 ms.
+    /// About 20 ms.
     const BUDGET: usize = 10_000;
 
     fn run<N: Scalar>(&self, x: N, y: N) -> N {

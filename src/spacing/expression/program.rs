@@ -50,7 +50,7 @@ pub enum Binary {
 pub enum Function {
     /// One argument.
     Unary(Unary),
-    /// Two arguments, or more where the function is `min` or `max`.
+    /// Two arguments, or more if the function is `min` or `max`.
     Binary(Binary),
 }
 
@@ -95,7 +95,7 @@ impl Step {
     }
 }
 
-/// What a program computes with.
+/// The numbers that a program computes with.
 pub trait Number: Copy {
     /// The number that stands for a constant.
     fn constant(value: f64) -> Self;
@@ -140,7 +140,7 @@ impl Program {
         stack[0]
     }
 
-    /// Whether the program needs more stack than there is.
+    /// Whether the program needs more than [`STACK`] numbers on its stack.
     pub(super) fn is_too_deep(&self) -> bool {
         self.highest > STACK
     }

@@ -2,8 +2,8 @@
 //!
 //! # Guarantee
 //! * [`Spacing::lipschitz`] is a proved upper bound of ‖∇f‖ over the domain's bounding box, found by best-first
-//!   subdivision with interval gradients, within 1 % of the supremum where that is reached within the budget; infinite
-//!   where no bound was found. The box is convex, so the bound is a Lipschitz constant there.
+//!   subdivision with interval gradients, within 1 % of the supremum if the budget is enough for that; infinite
+//!   if no bound was found. The box is convex, so the bound is a Lipschitz constant there.
 //! * [`Spacing::lower_bound`] and [`Spacing::upper_bound`] are interval enclosures: the better of the natural extension
 //!   and the mean-value form f(c) + ∇f(cell) · (cell − c).
 //!
@@ -18,7 +18,7 @@ use crate::spacing::{Rect, Spacing};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A bound this close above a value that is taken, relatively, is good enough.
+/// A bound is good enough if it is above a value of the function by no more than this share.
 const GAP: f64 = 0.01;
 
 /// f(x, y), computed in the same way with floats, intervals and interval gradients.
@@ -26,8 +26,8 @@ pub trait Formula: Send + Sync {
     /// Cells that each bound on the whole box may cost.
     const BUDGET: usize;
 
-    /// A Lipschitz constant beyond this counts as none: who walks in steps of f over the constant, as integration does, would
-    /// take the worse a bound is the longer, while none at all is known how to live with.
+    /// A Lipschitz constant beyond this counts as none: code that walks in steps of f over the constant, as integration does, takes
+    /// the longer the worse the bound is, and copes with none at all.
     const STEEPEST: f64 = f64::INFINITY;
 
     /// The value at (x, y).
@@ -152,7 +152,7 @@ fn supremum(budget: usize, root: Rect, bound: impl Fn(Rect) -> f64, value: impl 
         }
         for cell in top.cell.quarters() {
             age += 1;
-            // A part is never bounded worse than the whole.
+            // The bound of a part is never worse than that of the whole.
             heap.push(Waiting {
                 bound: bound(cell).min(top.bound),
                 age,
@@ -174,7 +174,7 @@ mod tests {
         max: DVec2::ONE,
     };
 
-    /// Within 1 % of the supremum where cells tell, the budget where they never do.
+    /// Within 1 % of the supremum if cells are informative; the whole budget if they never are.
     #[test]
     fn a_supremum_is_bounded_from_above_and_closely() {
         let cells = std::cell::Cell::new(0);

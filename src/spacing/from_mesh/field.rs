@@ -5,9 +5,9 @@
 //! same bounds, and the lengths are interpolated linearly on that mesh ([`Nodal`]).
 //!
 //! # Guarantee
-//! Cells enclose the function as it is evaluated: it is linear on each triangle, and [`crate::spacing::from_mesh::old_mesh`] tells which
-//! triangles count. Its slopes are known, but a domain need not be convex, so no Lipschitz constant is claimed; gradient
-//! limiting gives it one.
+//! Cells enclose the function as it is evaluated: it is linear on each triangle, and [`crate::spacing::from_mesh::old_mesh`]
+//! finds the triangles that count. Its slopes are known, but a domain need not be convex, so no Lipschitz constant is
+//! claimed; gradient limiting gives it one.
 //!
 //! # Cost
 //! Recovery is linear in the mesh, a query O(log n).
@@ -26,7 +26,7 @@ const ROUNDING: f64 = 1e-12;
 /// |λ|max of the Hessian recovered at each point of `mesh`, where u has `values`; 0 at points that no triangle uses.
 ///
 /// # Errors
-/// What is wrong with the mesh.
+/// A message that says what is wrong with the mesh.
 pub fn recovered_eigenvalues(mesh: &Mesh, values: &[f64]) -> Result<Vec<f64>, String> {
     let (old, kept) = OldMesh::new(mesh)?;
     let own: Vec<f64> = kept.iter().map(|&k| values[k]).collect();
@@ -50,7 +50,7 @@ impl Nodal {
     /// The function with these values at the points of `mesh`.
     ///
     /// # Errors
-    /// What is wrong with the mesh.
+    /// A message that says what is wrong with the mesh.
     pub fn new(mesh: &Mesh, values: &[f64]) -> Result<Self, String> {
         let (mesh, kept) = OldMesh::new(mesh)?;
         let values: Vec<f64> = kept.into_iter().map(|k| values[k]).collect();
@@ -61,7 +61,7 @@ impl Nodal {
     /// nsf of a u with these values at the points of `mesh`, for a domain with the box `bounds`.
     ///
     /// # Errors
-    /// What is wrong with the mesh.
+    /// A message that says what is wrong with the mesh.
     pub fn for_field(mesh: &Mesh, values: &[f64], tolerance: &Tolerance, bounds: Rect) -> Result<Self, String> {
         let eigenvalues = recovered_eigenvalues(mesh, values)?;
         let lengths: Vec<f64> = eigenvalues

@@ -1,7 +1,7 @@
-//! `el:FILE` and `nn:FILE`: the spacing functions of a mesh (§2.1), by which one mesh is the background of the next.
+//! `el:FILE` and `nn:FILE`: the spacing functions of a mesh (§2.1), by which one mesh sets the sizes of the next.
 //!
-//! * el_M(x): the longest edge of the triangles that hold x, decided exactly. It jumps from triangle to triangle, so that no
-//!   Lipschitz constant is proved; gradient limiting gives it one.
+//! * el_M(x): the longest edge of the triangles that hold x, decided exactly. It jumps from triangle to triangle, so it has no
+//!   Lipschitz constant; gradient limiting gives it one.
 //! * nn_M(x): the distance to the second nearest mesh point, which at a mesh point is its nearest other one. The distance to
 //!   the k-th nearest of any points is 1-Lipschitz.
 //!
@@ -9,12 +9,12 @@
 //!
 //! # Lemma 2.2
 //! c₁ el ≤ nn ≤ c₂ el. No point of a triangle is farther from a corner than the longest edge is long, so c₂ = 1 for every mesh,
-//! attained at the vertices of equilateral triangles. c₁ depends on the shape: the middle of a shortest edge has half of it
-//! as nn. On meshes by biting of the gallery at the defaults of t and c_b,
-//! looked at in the corners, middles and insides of triangles, c₁ lies between 0.19 and 0.27 (the tests hold it to that).
+//! attained at the vertices of equilateral triangles. c₁ depends on the shape: in the middle of a shortest edge, nn is half its
+//! length. On meshes of the gallery by biting at the defaults of t and c_b, measured in the corners, middles and insides of
+//! triangles, c₁ lies between 0.19 and 0.27 (the tests check this).
 //!
 //! # Cost
-//! O(log n) a query, by a tree of boxes.
+//! O(log n) per query, by a tree of boxes.
 
 use crate::geometry::DVec2;
 use crate::geometry::boxes::BoxTree;
@@ -30,10 +30,10 @@ pub struct EdgeLength {
 }
 
 impl EdgeLength {
-    /// Of a mesh.
+    /// Measures a mesh.
     ///
     /// # Errors
-    /// What is wrong with the mesh.
+    /// A message that says what is wrong with the mesh.
     pub fn new(mesh: &Mesh) -> Result<Self, String> {
         let (mesh, _) = OldMesh::new(mesh)?;
         let lengths = (0..mesh.triangles.len()).map(|t| mesh.longest_edge(t)).collect();
@@ -75,10 +75,10 @@ pub struct NearestNeighbour {
 }
 
 impl NearestNeighbour {
-    /// Of a mesh.
+    /// Measures a mesh.
     ///
     /// # Errors
-    /// What is wrong with the mesh, such as two vertices in one place.
+    /// A message that says what is wrong with the mesh, such as two vertices in one place.
     pub fn new(mesh: &Mesh) -> Result<Self, String> {
         let (OldMesh { points, .. }, kept) = OldMesh::new(mesh)?;
         let tree = BoxTree::new(points.iter().map(|&point| Rect { min: point, max: point }));

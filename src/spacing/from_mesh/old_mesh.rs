@@ -1,6 +1,6 @@
 //! A mesh that carries a spacing: which of its triangles hold a point, and which decide what happens in a cell.
 //!
-//! Points that no triangle holds, as those that rounding puts beside the boundary, have the values of the nearest triangle, at
+//! A point that no triangle holds, such as one that rounding puts beside the boundary, has the value of the nearest triangle at
 //! its nearest point.
 
 use crate::geometry::boxes::BoxTree;
@@ -17,16 +17,16 @@ pub struct OldMesh {
     /// Corners as indices into `points`.
     pub triangles: Vec<[u32; 3]>,
     tree: BoxTree,
-    /// Whether a triangle touches the mesh's boundary, if only at a corner.
+    /// Whether a triangle touches the mesh's boundary, even if only at a corner.
     outer: Vec<bool>,
 }
 
 impl OldMesh {
-    /// Indexes the triangles of `mesh`, turned counter-clockwise, and leaves out vertices that none uses. Gives for each
+    /// Indexes the triangles of `mesh`, turned counter-clockwise, and leaves out vertices that none uses. Returns for each
     /// vertex that is left its index in `mesh` too.
     ///
     /// # Errors
-    /// What is wrong with the mesh: no triangles, triangles without area, coordinates that are not finite.
+    /// A message that says what is wrong with the mesh: no triangles, triangles without area, coordinates that are not finite.
     pub fn new(mesh: &Mesh) -> Result<(Self, Vec<usize>), String> {
         let mut place = vec![u32::MAX; mesh.points.len()];
         let mut kept = Vec::new();
@@ -74,8 +74,8 @@ impl OldMesh {
         a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 
-    /// Visits the closed triangles that hold `x`, each with `x`, or, where there is none, the nearest with their nearest
-    /// points.
+    /// Visits the closed triangles that hold `x`, each with `x`; if there is none, the nearest triangles, each with its nearest
+    /// point.
     pub fn holding(&self, x: DVec2, mut visit: impl FnMut(usize, DVec2)) {
         let mut is_held = false;
         self.tree.near(x, 0.0, |t| {
@@ -106,7 +106,7 @@ impl OldMesh {
     }
 
     /// Visits every triangle that [`OldMesh::holding`] visits for some point of the cell, and perhaps a few more, each with
-    /// the box in which its points are that count.
+    /// the box that contains the points of it that count.
     pub fn deciding(&self, cell: Rect, mut visit: impl FnMut(usize, Rect)) {
         let mut met = Vec::new();
         self.meeting(cell, |t| met.push(t));
@@ -115,7 +115,7 @@ impl OldMesh {
             met.into_iter().for_each(|t| visit(t, cell));
             return;
         }
-        // A point outside lies as far from the mesh as the centre does and half a diagonal more, at most.
+        // A point outside is at most half a diagonal farther from the mesh than the centre.
         let mut away = f64::INFINITY;
         self.tree.near(cell.centre(), f64::INFINITY, |t| {
             let corners = self.corners(t);

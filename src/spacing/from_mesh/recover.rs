@@ -1,18 +1,18 @@
 //! The Hessian of a u that is known at the vertices of a mesh alone, recovered there.
 //!
 //! # Idea
-//! Around each vertex the quadratic that fits u best at the vertices nearby, by least squares; its second derivatives are the
-//! Hessian. The patch is the vertices within two edges, or more where these are fewer than [`PATCH`] or lie on a conic, as
+//! Around each vertex, least squares find the quadratic that fits u best at the vertices nearby; its second derivatives are the
+//! Hessian. The patch is the vertices within two edges, or more if these are fewer than [`PATCH`] or lie on a conic, as
 //! near the boundary.
 //!
 //! # Why this and not twice Zienkiewicz–Zhu
-//! A quadratic is recovered as it is, on any mesh and at the boundary too. Averaging gradients twice is exact for quadratics
+//! A quadratic is recovered exactly, on any mesh and at the boundary too. Averaging gradients twice is exact for quadratics
 //! only where the mesh is regular, and loses an order at the boundary, where layers and singularities are.
 //!
 //! # Order
 //! For nodal values of a smooth u the error of |λ|max is of first order in the edge length at least, since the fit leaves out
 //! the cubic terms. On meshes by biting, most of whose patches are nearly symmetric, so that cubic terms cancel, its root mean
-//! square is of order 1.7 from edges of 0.1 to 0.0125, the boundary included; the tests hold it to 1.5.
+//! square is of order 1.7 from edges of 0.1 to 0.0125, the boundary included; the tests demand 1.5.
 //!
 //! # Reference
 //! Z. Zhang, A. Naga, "A new finite element gradient recovery method: superconvergence property", SIAM J. Sci. Comput. 26,
@@ -26,20 +26,20 @@ use rayon::prelude::*;
 /// Coefficients of a quadratic in two variables.
 const TERMS: usize = 6;
 
-/// Vertices that a patch has at least, the one in the middle included: twice as many as a quadratic needs, so that values of
-/// a finite element solution, which are off a little, are smoothed.
+/// Fewest vertices of a patch, the one in the middle included: twice as many as a quadratic needs, so that the small errors of
+/// a finite element solution are smoothed.
 const PATCH: usize = 12;
 
-/// Rings after which a patch is taken as it is.
+/// Most rings of edges around the vertex of a patch.
 const RINGS: usize = 6;
 
-/// Columns that leave less than this share of their length beside the earlier ones say nothing of their own.
+/// A column that keeps less than this share of its length beside the earlier ones counts as dependent on them.
 const INDEPENDENT: f64 = 1e-6;
 
 /// The second derivatives by xx, xy and yy at each vertex of `mesh`, where u has `values`.
 ///
 /// # Errors
-/// A mesh with fewer vertices than a quadratic has coefficients.
+/// A message if the mesh has fewer vertices than a quadratic has coefficients.
 pub fn hessians(mesh: &OldMesh, values: &[f64]) -> Result<Vec<[f64; 3]>, String> {
     let count = mesh.points.len();
     if count < TERMS {
@@ -74,8 +74,8 @@ pub fn hessians(mesh: &OldMesh, values: &[f64]) -> Result<Vec<[f64; 3]>, String>
     Ok((0..count).into_par_iter().map(at).collect())
 }
 
-/// The Hessian of the quadratic that fits best on a patch around its first vertex; none where the patch leaves a coefficient
-/// open, unless such are to be 0.
+/// The Hessian of the quadratic that fits best on a patch around its first vertex; none if the patch leaves a coefficient
+/// open, unless open ones are to be 0.
 fn fit(mesh: &OldMesh, values: &[f64], patch: &[usize], open_is_zero: bool) -> Option<[f64; 3]> {
     let centre = mesh.points[patch[0]];
     let offset = |vertex: &usize| mesh.points[*vertex] - centre;
@@ -89,8 +89,8 @@ fn fit(mesh: &OldMesh, values: &[f64], patch: &[usize], open_is_zero: bool) -> O
     Some([2.0 * xx * scale, xy * scale, 2.0 * yy * scale])
 }
 
-/// The coefficients with which the columns of `rows` come nearest to `wanted`, by Gram and Schmidt as modified; none where
-/// the columns are not independent, unless those that are not shall have none.
+/// The coefficients with which the columns of `rows` come nearest to `wanted`, by modified Gram-Schmidt; none if the columns are
+/// dependent, unless dependent ones are to get the coefficient 0.
 fn least_squares(rows: &[[f64; TERMS]], mut wanted: Vec<f64>, open_is_zero: bool) -> Option<[f64; TERMS]> {
     let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
     let mut columns: [Vec<f64>; TERMS] = std::array::from_fn(|k| rows.iter().map(|row| row[k]).collect());

@@ -1,8 +1,9 @@
-//! The largest α-Lipschitz function below given values at the vertices of a mesh, nearly: a first guess for [`crate::spacing::geodesic::slopes`].
+//! The largest α-Lipschitz function below given values at the vertices of a mesh, nearly: a first guess for
+//! [`crate::spacing::geodesic::slopes`].
 //!
-//! It is the least of the cones v_y + α d(x, y) over the vertices y. A vertex takes over the cone that a neighbour has, straight
-//! from its apex if that can be seen, else with the neighbour for apex: shortest ways turn at vertices of the domain,
-//! which are vertices of the mesh. Guesses do no harm: what comes of this is lowered until no triangle is too steep.
+//! It is the least of the cones v_y + α d(x, y) over the vertices y. A vertex takes over the cone of a neighbour, straight
+//! from the apex if it sees that, else with the neighbour as apex: shortest ways turn at vertices of the domain,
+//! which are vertices of the mesh. Guesses do no harm: the result is lowered until no triangle is too steep.
 
 use crate::domain::Domain;
 use crate::geometry::predicates::{Meeting, segments_meet};
@@ -11,10 +12,10 @@ use crate::mesh::Mesh;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// By what share a value must fall for its neighbours to be told.
+/// The share by which a value must fall before its neighbours are visited again.
 const LITTLE: f64 = 1e-9;
 
-/// An apex is left behind when the cone has risen by this share of its value: less is to be seen across then.
+/// An apex is left behind when the cone has risen by this share of its value: sight lines stay short then.
 const FARTHEST: f64 = 0.7;
 
 /// The least of the cones at each vertex.

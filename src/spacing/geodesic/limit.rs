@@ -1,25 +1,25 @@
-//! The limited spacing: the larger of two functions that are limited. One is what limiting makes of lfs as the plane has it
+//! The limited spacing: the larger of two limited functions. One is the limited lfs of the plane
 //! ([`crate::spacing::limit`]). The other is linear on each triangle of a mesh of the domain, with no gradient longer than α.
 //!
 //! # Guarantee
 //! * Each is α-Lipschitz in the length d of ways inside Ω, and so is the larger of the two (Lemma 2.3). The first is in the
 //!   plane; the other changes along a way by at most α times its length, triangle by triangle.
-//! * Each is at most f on Ω: the first since lfs is, the other as follows. Let g_i be f at the corners p_i of a triangle and λ
-//!   the Lipschitz constant of f. At a point x = Σ w_i p_i of the triangle, f(x) ≥ Σ w_i (g_i − λ ‖x − p_i‖), and Σ w_i ‖x − p_i‖ ≤ (Σ w_i ‖x − p_i‖²)^½ ≤ D, the radius
-//!   of the smallest circle around the triangle: R² − ‖x − c‖² is what the sum of squares is, with the circumcentre c
-//!   and radius R. So values of at most f − λ D for all triangles at a vertex are low enough, and lowering them
-//!   further ([`Slopes::limit`]) does no harm.
+//! * Each is at most f on Ω: the first since lfs is, the other as follows. Let g_i be f at the corners p_i of a triangle and
+//!   λ the Lipschitz constant of f. At a point x = Σ w_i p_i of the triangle, f(x) ≥ Σ w_i (g_i − λ ‖x − p_i‖), and Σ w_i ‖x
+//!   − p_i‖ ≤ (Σ w_i ‖x − p_i‖²)^½ ≤ D, the radius of the smallest circle around the triangle: R² − ‖x − c‖² is what the sum
+//!   of squares is, with the circumcentre c and radius R. So values of at most f − λ D for all triangles at a vertex are low
+//!   enough, and lowering them further ([`Slopes::limit`]) does no harm.
 //! * It is positive, as no value falls below the smallest of them.
 //!
 //! # How near the largest α-Lipschitz function it comes
-//! It is nowhere below what is made of lfs. Where the other function could be above that by more than a share 1 − k, k being
+//! It is nowhere below the limited lfs. Where the other function could be above that by more than a share 1 − k, k being
 //! [`crate::spacing::Options::limit_factor`], its triangles are halved until λ D is at most a share 1 − k of the spacing at
 //! vertices where it is not limited, and α D elsewhere. That proves no factor, since functions that are linear on triangles
 //! cannot follow the cones and creases of the largest one. On `two-arms`, `comb`, `star` and `l-shape` it was nowhere below 0.45
-//! of a bound of the largest from above, and in sum 1.4 times the triangles or less (the tests hold it to that).
+//! of an upper bound of the largest, and asked for at most 1.4 times the triangles in all (the tests check both).
 //!
 //! # Cost
-//! Some ten times what lfs takes to prepare: 10 s in place of 1 s for the 3601 segments of `aegean`.
+//! It takes about ten times as long to prepare as lfs: 10 s in place of 1 s for the 3601 segments of `aegean`.
 
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
@@ -33,16 +33,16 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
-/// In every triangle f varies by at most this share of it.
+/// In every triangle f varies by at most this share of its value.
 const COARSEST: f64 = 0.5;
 
 /// Most vertices of the mesh.
 const MOST: usize = 2_000_000;
 
-/// So many of a thousand triangles that are to be halved are not worth another round.
+/// At most this number of triangles in a thousand that are to be halved are not worth another round.
 const FEW: usize = 5;
 
-/// A value has been lowered where it is less than this share of what it was.
+/// A value counts as lowered if it is less than this share of what it was.
 const LOWERED: f64 = 0.97;
 
 /// A spacing limited by distances inside the domain.
@@ -51,14 +51,14 @@ pub struct GeodesicLimited {
     mesh: OldMesh,
     values: Vec<f64>,
     alpha: f64,
-    /// What is made of lfs as the plane has it.
+    /// The limited lfs of the plane.
     plane: Arc<dyn Spacing>,
 }
 
 /// A function at most `function` on Ω and `alpha`-Lipschitz in the length of ways inside Ω.
 ///
 /// # Errors
-/// [`SpacingError::NotPositive`] where `function` is not, [`SpacingError::TooManyCells`] where it is so small that the mesh would
+/// [`SpacingError::NotPositive`] if `function` is not, [`SpacingError::TooManyCells`] if it is so small that the mesh would
 /// have too many triangles, [`SpacingError::Triangulation`].
 pub fn limit(
     function: &dyn Spacing,
@@ -101,7 +101,7 @@ pub fn limit(
 struct Refinement<'a> {
     domain: &'a Domain,
     function: &'a dyn Spacing,
-    /// What is made of lfs, and its values at the vertices.
+    /// The limited lfs of the plane, and its values at the vertices.
     plane: Arc<dyn Spacing>,
     in_plane: Vec<f64>,
     /// The function's Lipschitz constant.
@@ -112,7 +112,7 @@ struct Refinement<'a> {
 }
 
 impl Refinement<'_> {
-    /// Triangulates the points there are, and evaluates the function at new ones.
+    /// Triangulates the points, and evaluates the function at new ones.
     fn triangulate(&mut self) -> Result<(), SpacingError> {
         let Mesh { points, pieces, .. } = std::mem::take(&mut self.mesh);
         self.mesh = triangulate(self.domain, points, pieces)?;
@@ -149,9 +149,9 @@ impl Refinement<'_> {
         values.into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// The limited values, and the triangles that are to be smaller for them to come nearer to the largest there could be. Of
-    /// those at vertices where more than `share` is missing, they are those where α D is more than `share` of the value, or
-    /// λ D at a vertex that was not lowered.
+    /// The limited values, and the triangles that must be smaller for the values to come nearer to the largest possible: those
+    /// at vertices where more than `share` is missing, if α D is more than `share` of the value, or λ D at a vertex that was not
+    /// lowered.
     fn limited(&self, alpha: f64, share: f64) -> (Vec<f64>, Vec<(usize, f64)>) {
         let mut largest = vec![0.0f64; self.values.len()];
         for (t, corners) in self.mesh.triangles.iter().enumerate() {
@@ -189,7 +189,7 @@ impl Refinement<'_> {
         (values, coarse)
     }
 
-    /// Puts points in the middle of edges: of the longest edge of each triangle, and of all its long ones where it is far too
+    /// Puts points in the middle of edges: of the longest edge of each triangle, and of all its long ones if it is far too
     /// large.
     fn split(&mut self, triangles: &[(usize, f64)], alpha: f64) -> Result<(), SpacingError> {
         let mut edges: Vec<[u32; 2]> = Vec::new();
@@ -233,7 +233,7 @@ impl Refinement<'_> {
     }
 }
 
-/// The radius of the smallest circle around a triangle: half the longest edge where the angle opposite is obtuse.
+/// The radius of the smallest circle around a triangle: half the longest edge if the angle opposite is obtuse.
 fn enclosing_radius([a, b, c]: [DVec2; 3]) -> f64 {
     let mut squares = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
     squares.sort_by(f64::total_cmp);

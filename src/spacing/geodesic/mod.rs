@@ -6,7 +6,7 @@
 //! lfs_Ω(x) is the smallest r for which R(x, r) meets two features that are not incident.
 //!
 //! # Guarantee
-//! With d(x, y) the length of the shortest way from x to y inside Ω, infinite where there is none:
+//! With d(x, y) the length of the shortest way from x to y inside Ω, infinite if there is none:
 //! * lfs_Ω ≥ lfs, since R(x, r) ⊂ B(x, r); and they are equal wherever the disc of lfs reaches all of Ω that it meets.
 //! * lfs_Ω is 1-Lipschitz in d. A shortest way from y to x lies in B(y, d), and B(x, r) in B(y, d + r). So what x reaches with r
 //!   is reached by y with d + r, and lfs_Ω(y) ≤ lfs_Ω(x) + d.
@@ -18,7 +18,7 @@
 //! Both hold in a closed domain with inner segments, which may be crossed, and with vertices at which it touches itself.
 //!
 //! # How it is limited
-//! The limited spacing is the larger of what limiting makes of lfs and a function that is linear on each triangle of a mesh
+//! The limited spacing is the larger of the limited lfs of the plane and a function that is linear on each triangle of a mesh
 //! of Ω ([`limit`]).
 
 mod cones;
@@ -45,11 +45,11 @@ pub struct GeodesicLfs {
 }
 
 impl GeodesicLfs {
-    /// Of a domain with this lfs.
+    /// For a domain with this lfs.
     ///
     /// # Errors
-    /// [`SpacingError::NoFeatures`], [`SpacingError::Unresolved`] as for [`crate::spacing::Lfs`], [`SpacingError::Triangulation`] where
-    /// the domain cannot be triangulated.
+    /// [`SpacingError::NoFeatures`], [`SpacingError::Unresolved`] as for [`crate::spacing::Lfs`],
+    /// [`SpacingError::Triangulation`] if the domain cannot be triangulated.
     pub fn new(domain: &Domain, in_plane: Arc<Lfs>) -> Result<Self, SpacingError> {
         let reach = Reach::new(domain)?;
         let at_vertices = domain.vertices().iter().map(|&v| (reach.smallest_apart(v), v));
@@ -73,7 +73,7 @@ impl GeodesicLfs {
         })
     }
 
-    /// A lower bound of it: half the smallest value at a vertex.
+    /// A lower bound on the whole domain: half the smallest value at a vertex.
     pub fn smallest(&self) -> f64 {
         self.smallest
     }

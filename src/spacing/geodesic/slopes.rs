@@ -5,13 +5,14 @@ use crate::mesh::Lists;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// A triangle so much steeper than α is left as it is, for what comes of lowering it for ever; the values are scaled in the end.
+/// A triangle steeper than α by no more than this factor is left as it is, or lowering might go on for ever; the values are scaled
+/// in the end.
 const ROOM: f64 = 1e-6;
 
-/// Most times a triangle is looked at, on average: many times what it takes.
+/// Most visits to a triangle, on average: many times what is needed.
 const LOOKS: usize = 400;
 
-/// Most rounds of raising values, and the share by which it must be worth it.
+/// Most rounds of raising values, and the share that a round must gain.
 const ROUNDS: usize = 24;
 const LITTLE: f64 = 2e-3;
 
@@ -25,8 +26,8 @@ pub struct Slopes<'a> {
 impl Slopes<'_> {
     /// Lowers values until the gradient is at most `alpha` on every triangle. No value falls below the smallest there is.
     ///
-    /// First far enough, the lowest vertices first: what they allow their neighbours is then nearly final. Then each is
-    /// raised again as far as its triangles allow, the others staying as they are, until that changes little.
+    /// Values are first lowered far enough, the lowest vertices first: what they allow their neighbours is then nearly final. Then
+    /// each is raised again as far as its triangles allow, the others staying as they are, until that changes little.
     pub fn limit(&mut self, alpha: f64, most: &[f64]) {
         let at_corners = (0..)
             .zip(self.triangles)
@@ -121,7 +122,7 @@ impl Slopes<'_> {
         ((c.1 - a.1) * ab.perp() - (b.1 - a.1) * ac.perp()) / ab.perp_dot(ac)
     }
 
-    /// Lowers one corner of a triangle that is too steep, by as little as will do if it is the only one, and returns it.
+    /// Lowers one corner of a triangle that is too steep, by as little as is enough if it is the only one, and returns it.
     fn lower_one(&mut self, t: usize, alpha: f64) -> Option<u32> {
         if self.gradient(t).length() <= alpha * (1.0 + ROOM) {
             return None;
@@ -153,7 +154,7 @@ impl Slopes<'_> {
         })
     }
 
-    /// The largest value at `v` for which the gradient is at most `alpha`, where the edge between the two others is not too steep.
+    /// The largest value at `v` for which the gradient is at most `alpha`, if the edge between the two others is not too steep.
     fn cap(&self, v: u32, [low, other]: [u32; 2], alpha: f64) -> f64 {
         let [x, from, to] = [v, low, other].map(|v| self.points[v as usize]);
         let [start, end] = [low, other].map(|v| self.values[v as usize]);

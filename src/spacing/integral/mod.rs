@@ -1,14 +1,15 @@
-//! ∫_Ω dA / f², which Lemma 5.10 and Theorem 5.11 measure meshes by.
+//! ∫_Ω dA / f², by which Lemma 5.10 and Theorem 5.11 measure meshes.
 //!
 //! # Idea
-//! The domain is cut into triangles on each of which f varies little enough ([`start`]). There Radon's rule (seven points, exact for degree 5) is compared with the same rule on the four
-//! quarters; the quarters give the value, a third of the difference is the error. Triangles with the largest errors,
-//! together 60 % of the whole, are split until the sum of all errors is within the tolerance (bulk chasing, Dörfler). Two halves
-//! instead of four quarters would not do: a function that does not vary along the edge that is cut gives the same sum.
+//! The domain is cut into triangles on each of which f varies little enough ([`start`]). On each, Radon's rule (seven points,
+//! exact for degree 5) is compared with the same rule on the four quarters; the quarters give the value, a third of the
+//! difference is the error. The triangles with the largest errors, together 60 % of the whole, are split until the sum of
+//! all errors is within the tolerance (bulk chasing, Dörfler). Two halves instead of four quarters would not do: a function
+//! that does not vary along the edge that is cut gives the same sum.
 //!
 //! # Guarantee
-//! An estimate, not a proof: on smooth parts the quarters are some 60 times better than the difference says, at the kinks
-//! of lfs some 4 times, and errors at kinks cancel. So that no valley is missed, triangles first become shorter than
+//! An estimate, not a proof: on smooth parts the quarters are about 60 times better than the difference shows, at the kinks
+//! of lfs about 4 times, and errors at kinks cancel. So that no valley is missed, triangles first become shorter than
 //! f / λ, with λ the Lipschitz constant of f, and than a share of the domain ([`start`]): within one, f varies at most by its
 //! own size.
 //!
@@ -23,19 +24,19 @@ use rayon::prelude::*;
 
 mod start;
 
-/// A quarter has at least this share of the error of the whole. A kink that cuts off a corner is seen by no point of the
-/// rule; without this such quarters would pass for exact while all others are refined. Errors at a kink shrink by about
-/// 1/8 a quartering, smooth ones by more than 1/64.
+/// A quarter counts with at least this share of the error of the whole. No point of the rule sees a kink that cuts off a corner;
+/// without this share such quarters would pass for exact while all others are refined. A quartering shrinks errors at a kink
+/// to about 1/8, smooth ones to less than 1/64.
 const INHERITED: f64 = 0.02;
 
 /// The error of the quarters' sum as a share of its difference from the whole: at a kink the quarters have together at
 /// most about a quarter of the whole's error, so a third of the difference; elsewhere far less.
 const GAIN: f64 = 1.0 / 3.0;
 
-/// Most evaluations of f before giving up: a minute or so.
+/// Most evaluations of f before giving up: about a minute.
 const MAX_EVALUATIONS: usize = 200_000_000;
 
-/// Share of the estimated error that the triangles to split hold together.
+/// Share of the estimated error that the triangles to split have together.
 const BULK: f64 = 0.6;
 
 /// Points of Radon's rule.
@@ -69,9 +70,9 @@ struct Part {
 /// result whatever the number of threads.
 ///
 /// # Errors
-/// [`SpacingError::NotPositive`] where f is not, [`SpacingError::TooSmall`] where it comes too near to that,
-/// [`SpacingError::NotConverged`] where the tolerance is out of reach,
-/// [`SpacingError::Triangulation`] where the domain cannot be triangulated.
+/// [`SpacingError::NotPositive`] if f is not, [`SpacingError::TooSmall`] if f comes too near to 0,
+/// [`SpacingError::NotConverged`] if the tolerance is out of reach,
+/// [`SpacingError::Triangulation`] if the domain cannot be triangulated.
 pub fn integrate(function: &dyn Spacing, domain: &Domain, tolerance: f64) -> Result<Integral, SpacingError> {
     check_positive(function, domain)?;
     let parts = start::triangles(function, domain)?
@@ -124,7 +125,7 @@ fn refine(function: &dyn Spacing, mut parts: Vec<Part>, tolerance: f64, most: us
     }
 }
 
-/// Tells of a part over which 1 / f² is beyond all numbers.
+/// The error for a part over which 1 / f² overflows.
 fn overflow(function: &dyn Spacing, parts: &[Part]) -> SpacingError {
     let is_over = |part: &&Part| !part.quarters.iter().sum::<f64>().is_finite();
     let at = parts
@@ -138,7 +139,7 @@ fn overflow(function: &dyn Spacing, parts: &[Part]) -> SpacingError {
     }
 }
 
-/// The parts with the largest errors that hold `wanted` together; of equals the first.
+/// The parts with the largest errors that have `wanted` together; of equal ones the first.
 fn largest(parts: &[Part], wanted: f64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..parts.len()).filter(|&index| parts[index].error > 0.0).collect();
     order.par_sort_unstable_by(|&a, &b| parts[b].error.total_cmp(&parts[a].error).then(a.cmp(&b)));
@@ -185,7 +186,7 @@ fn quarters([a, b, c]: &Triangle) -> [Triangle; 4] {
     [[*a, ab, ca], [ab, *b, bc], [ca, bc, *c], [bc, ca, ab]]
 }
 
-/// f where it is positive and finite.
+/// f, which must be positive and finite.
 fn checked(function: &dyn Spacing, x: DVec2) -> Result<f64, SpacingError> {
     let value = function.at(x);
     if value > 0.0 && value.is_finite() {

@@ -1,9 +1,9 @@
 //! The triangles that integration starts from: no longer than f / λ, so that f varies within one at most by its own size.
 //!
-//! A constrained Delaunay triangulation of the domain with its segments cut into pieces of about f / λ, and with a point in
-//! the middle of each cell of a quadtree, about as large, that no segment meets; what is still longer is bisected. The domain's
-//! own triangulation would not do: a long segment opposite to many short ones, or a round outline of many, makes needles, each
-//! of which is cut into as many parts as a wide triangle would be.
+//! They are the constrained Delaunay triangulation of the domain, with its segments cut into pieces of about f / λ, and with a
+//! point in the middle of each cell of a quadtree, about as large, that no segment meets; longer triangles are bisected. The
+//! domain's own triangulation would not do: a long segment opposite to many short ones, or a round outline of many segments,
+//! makes needles, each of which would be cut into as many parts as a wide triangle.
 
 use crate::delaunay::triangulate;
 use crate::domain::Domain;
@@ -15,21 +15,21 @@ use crate::spacing::integral::{EVALUATIONS_A_PART, MAX_EVALUATIONS, SpacingError
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Triangles are shorter than this share of the domain, so that the error is a sum over hundreds of them and no accident.
+/// Triangles are shorter than this share of the domain, so that the error is a sum over hundreds of them and not an accident.
 const COARSEST: f64 = 1.0 / 32.0;
 
-/// Most triangles: more could not be looked at once. Where f is that small, so is no mesh.
+/// Most triangles: more could not all be visited once. No mesh can be made where f is that small.
 const MOST: usize = MAX_EVALUATIONS / EVALUATIONS_A_PART;
 
 /// The triangles, in an order that does not depend on the number of threads.
 ///
 /// # Errors
-/// [`SpacingError::TooSmall`] where there would be too many, [`SpacingError::NotPositive`] where f is not,
-/// [`SpacingError::Triangulation`] where the domain cannot be triangulated.
+/// [`SpacingError::TooSmall`] if there would be too many, [`SpacingError::NotPositive`] if f is not,
+/// [`SpacingError::Triangulation`] if the domain cannot be triangulated.
 pub fn triangles(function: &dyn Spacing, domain: &Domain) -> Result<Vec<Triangle>, SpacingError> {
     let slope = function.lipschitz();
     let coarsest = COARSEST * domain.bounds().diagonal();
-    // Where λ is infinite nothing is known of f nearby.
+    // If λ is infinite, nothing is known of f nearby.
     let reach = |value: f64| {
         if slope.is_finite() {
             coarsest.min(value / slope)
@@ -44,7 +44,7 @@ pub fn triangles(function: &dyn Spacing, domain: &Domain) -> Result<Vec<Triangle
 }
 
 /// The triangulation of the domain with further points on its segments and inside; none if it would have more than `most`
-/// triangles, of which there are about two a point inside.
+/// triangles, of which there are about two per point inside.
 pub(super) fn base(
     domain: &Domain,
     reach_at: impl Fn(DVec2) -> Result<f64, SpacingError> + Sync,
@@ -149,7 +149,7 @@ pub(super) fn cut(
                 continue;
             }
             pending.extend(bisect(&next));
-            // However the threads take turns, this happens if and only if there are more in the end.
+            // Whatever the order of the threads, this happens if and only if there are more in the end.
             if count.fetch_add(1, Ordering::Relaxed) >= most {
                 return Ok(None);
             }
@@ -163,7 +163,7 @@ pub(super) fn cut(
     Ok(parts.map(|parts| parts.concat()))
 }
 
-/// Tells where f is smallest, of all ends and middles of segments: lfs has its minima there.
+/// The error that names where f is smallest, among all ends and middles of segments, where lfs has its minima.
 pub(super) fn narrowest(function: &dyn Spacing, domain: &Domain) -> SpacingError {
     let places = (0..domain.segments().len())
         .map(|s| domain.ends(s))
@@ -179,7 +179,7 @@ pub(super) fn narrowest(function: &dyn Spacing, domain: &Domain) -> SpacingError
     }
 }
 
-/// The corner at which the longest edge starts; of equals the first.
+/// The corner at which the longest edge starts; of equal ones the first.
 pub(super) fn longest_edge(triangle: &Triangle) -> usize {
     let length = |corner: usize| triangle[corner].distance_squared(triangle[(corner + 1) % 3]);
     (1..3).fold(

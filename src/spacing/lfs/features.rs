@@ -3,7 +3,7 @@
 use crate::geometry::DVec2;
 use crate::spacing::lfs::items::Items;
 
-/// Distances kept on the stack; longer lists occur only while the lists are built, and at vertices of huge degree.
+/// Number of distances kept on the stack; longer lists occur only while the lists are built, and at vertices of huge degree.
 const BUFFER: usize = 64;
 
 /// A vertex (both ends the same) or a segment.
@@ -52,7 +52,7 @@ impl Feature {
     }
 }
 
-/// A squared radius and the two features that a disk of it meets.
+/// A squared radius, and the two features that the disk of this radius meets.
 type Stop = (f64, [u32; 2]);
 
 /// The features of a PSLG.
@@ -76,8 +76,8 @@ impl Features {
         [feature.from, feature.from + feature.along]
     }
 
-    /// The nearest feature `first` is a segment: what hangs on one of its ends may be apart from what hangs on the
-    /// other (the two ends themselves are). Returns the smallest disk that meets two such, or `stop` if that is smaller.
+    /// For a segment `first` as the nearest feature: features at one of its ends may not be incident to features at the other (the
+    /// two ends themselves are not). Returns the smallest disk that meets two such, or `stop` if that is smaller.
     fn between_the_ends(&self, first: &Feature, list: &[u32], distances: &[f64], stop: Stop) -> Stop {
         let mut lowest = stop;
         if first.ends[0] == first.ends[1] {
@@ -167,7 +167,7 @@ mod tests {
         assert_eq!(Items::offset(&features, 1, DVec2::ZERO), (DVec2::new(-1.0, -1.0), 0.0));
     }
 
-    /// Longer lists than the buffer holds give what shorter ones do.
+    /// Lists longer than the buffer give the same as shorter ones.
     #[test]
     fn long_lists_are_decided_as_short_ones_are() {
         for count in [
@@ -183,7 +183,7 @@ mod tests {
         }
     }
 
-    /// A segment is nearest, and what hangs on its ends is nearer than all that does not.
+    /// A segment is nearest, and the features at its ends are nearer than all others.
     #[test]
     fn what_hangs_on_one_end_may_stop_the_disk_with_what_hangs_on_the_other() {
         // A tall U, its bottom from (0, 0) to (4, 0), arms to (0, 9) and (4, 9), and a vertex far away.

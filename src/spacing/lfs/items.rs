@@ -3,16 +3,16 @@
 use crate::geometry::{DVec2, Rect};
 use std::ops::Range;
 
-/// Share of [`Items::is_fine`] for features. Meshes and integrals ask a few times in such a cell where spacing follows lfs: a
+/// Share of [`Items::is_fine`] for features. If the spacing follows lfs, meshes and integrals query such a cell a few times: a
 /// shorter list would take longer to make than it saves.
 const FINEST: f64 = 1.0 / 32.0;
 
 /// [`Items::short`] of features.
 const SHORT: usize = 16;
 
-/// What decides a function: convex sets, each with a value that rises with the distance from it.
+/// The items that decide a function: convex sets, each with a value that rises with the distance from it.
 pub trait Items: Sync {
-    /// The function at `x` if the items in `list` are all there are, and the items that decide it: one twice, or two.
+    /// The function at `x` if there are no items but those in `list`, and the items that decide it: one twice, or two.
     fn decide(&self, list: &[u32], x: DVec2) -> (f64, [u32; 2]);
 
     /// From the point of an item nearest to `x` to `x`, and the item's value there.
@@ -25,30 +25,30 @@ pub trait Items: Sync {
         View::new(offset, distance, lowest + self.slope() * distance)
     }
 
-    /// α: by how much values rise with distance.
+    /// α: how much values rise per unit of distance.
     fn slope(&self) -> f64;
 
-    /// What stands for an item in a cell that is small against it: items of which each has a value no lower.
+    /// The items that replace an item in a cell that is small beside it; none of them has a lower value.
     fn parts(&self, _item: u32, _cell: &Rect) -> Option<Range<u32>> {
         None
     }
 
-    /// Whether an item stands for no others, however small the cell.
+    /// Whether an item is replaced by no others, however small the cell.
     fn is_single(&self, _item: u32) -> bool {
         true
     }
 
-    /// Where in a cell the function is ever asked for.
+    /// Where in a cell the function can be asked for.
     fn asked_in(&self, _cell: &Rect) -> Asked {
         Asked::Everywhere
     }
 
-    /// Whether a cell is not to be split: its radius as a share of the function at its centre, and how long its list is.
+    /// Whether a cell is fine enough, by its radius as a share of the function at its centre and by the length of its list.
     fn is_fine(&self, share: f64, _count: usize) -> bool {
         share <= FINEST
     }
 
-    /// A list longer than this is of no use: that of its cell is empty.
+    /// A list longer than this is of no use, and the cell gets an empty one.
     fn longest(&self) -> usize {
         usize::MAX
     }
@@ -59,7 +59,7 @@ pub trait Items: Sync {
     }
 }
 
-/// Where in a cell a function is asked for; the list of a cell where it is not is empty.
+/// Where in a cell a function is asked for; a cell in which it never is has an empty list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asked {
     /// Nowhere.
@@ -82,14 +82,14 @@ pub struct View {
 }
 
 impl View {
-    /// The view over `offset`, which leads over `distance` from the point of K nearest to x to x.
+    /// The view of an item K from x, by the `offset` from the point of K nearest to x to x and its length, `distance`.
     #[inline]
     pub fn new(offset: DVec2, distance: f64, value: f64) -> Self {
         let away = if distance > 0.0 { offset / distance } else { DVec2::ZERO };
         Self { value, distance, away }
     }
 
-    /// By how much the distance may rise within `radius` beyond what its gradient here says, or fall short of it.
+    /// By how much the distance may differ within `radius` from what its gradient here predicts.
     #[inline]
     pub fn turn(&self, radius: f64) -> f64 {
         if self.distance > radius {
@@ -110,7 +110,7 @@ mod tests {
         let far = view(DVec2::new(3.0, 4.0));
         assert_eq!((far.value, far.distance, far.away), (7.0, 5.0, DVec2::new(0.6, 0.8)));
         assert_eq!(far.turn(0.5), 0.125 / 4.5);
-        // Within the radius it may turn any way.
+        // Within the radius it may turn in any direction.
         assert_eq!(far.turn(5.0), f64::INFINITY);
         assert_eq!(view(DVec2::ZERO).away, DVec2::ZERO);
     }

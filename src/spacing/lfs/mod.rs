@@ -10,8 +10,8 @@
 //! `lfs` is 1-Lipschitz on the whole plane, and nowhere below half the smallest lfs of a vertex.
 //!
 //! # Deviations from the paper
-//! None. Distances are Euclidean, so that two arms close in the plane and far along the domain see each other; the geodesic
-//! variant that the paper's footnote names is [`crate::spacing::GeodesicLfs`].
+//! None. Distances are Euclidean, so two arms that are close in the plane and far apart along the domain affect one another; the
+//! geodesic variant of the paper's footnote is [`crate::spacing::GeodesicLfs`].
 
 mod features;
 pub(super) mod items;
@@ -65,8 +65,8 @@ impl Lfs {
     /// Indexes the features of a PSLG: all `vertices`, and `segments` between two of them.
     ///
     /// # Errors
-    /// [`SpacingError::NoFeatures`] where no two features are apart, [`SpacingError::NotPositive`] where two coincide,
-    /// [`SpacingError::Unresolved`] where two are so near that no mesher could put an edge between them.
+    /// [`SpacingError::NoFeatures`] if no two features are apart, [`SpacingError::NotPositive`] if two coincide,
+    /// [`SpacingError::Unresolved`] if two are so near that no mesher could put an edge between them.
     pub fn new(vertices: &[DVec2], segments: &[[usize; 2]]) -> Result<Self, SpacingError> {
         let points = vertices
             .iter()
@@ -80,8 +80,8 @@ impl Lfs {
         if vertices.len() < 2 {
             return Err(SpacingError::NoFeatures);
         }
-        // Some room outside for a mesher that looks past the boundary; beyond that a query looks at every feature. Beside
-        // a long thin domain lists would be long, and nobody looks that far.
+        // Some room outside, for a mesher that evaluates f past the boundary; farther away a query visits every feature. Beside a
+        // long thin domain lists would be long, and nothing is evaluated that far away.
         let room = DVec2::splat((0.05 * bounds.diagonal()).min(bounds.size().min_element()));
         let root = Rect {
             min: bounds.min - room,
@@ -135,7 +135,7 @@ impl Lfs {
         self.narrowest
     }
 
-    /// Nodes and entries of the index.
+    /// The number of nodes and of entries of the index.
     pub fn index_size(&self) -> (usize, usize) {
         self.lists.size()
     }

@@ -3,7 +3,7 @@
 //! # Idea
 //! lfs(x) is decided by two of the features nearest to x, a limited spacing by one of its terms. If the items that decide at the
 //! centre of a small disc are lower than item K all over the disc, K cannot decide anywhere in it. So a child's list is a part
-//! of its parent's, and a query walks down to its leaf and looks at a few items, exactly as if it had looked at all.
+//! of its parent's, and a query walks down to its leaf and evaluates a few items, with exactly the result of evaluating all.
 //!
 //! # Guarantee
 //! An item's value is v_K + α d_K, with d_K the distance to a convex set. The gradient of d is a unit vector that turns by at
@@ -12,10 +12,10 @@
 //!
 //! > d_K − d_W ≥ d_K(c) − d_W(c) − min(2 r, r ‖∇d_K − ∇d_W‖ + ½ r² / (d_K − r) + ½ r² / (d_W − r)),
 //!
-//! and K is left out where so its value is above that of both deciding items W.
+//! and K is left out if this puts its value above that of both deciding items W.
 //!
-//! Which leaf a point is in is read off its place in the root as two binary fractions. That is rounded, and so are the
-//! cells' sides: r has room for both.
+//! The leaf of a point is read off its place in the root, as two binary fractions. These are rounded, and so are the cells'
+//! sides: r has room for both.
 //!
 //! # Cost
 //! About (items) × (depth) × (overlap) to build; a query is a walk of `depth` steps, without a branch that depends on the point,
@@ -29,18 +29,18 @@ use rayon::prelude::*;
 
 mod path;
 
-/// Deepest tree: cells 2⁻⁴⁰ of the root, finer than coordinates can tell apart in practice.
+/// Deepest tree: cells of 2⁻⁴⁰ of the root, below the resolution of coordinates in practice.
 const DEPTH: usize = 40;
 
-/// A cell smaller than the function there is not split once so many levels in turn have each left out under 1 /
-/// [`PROGRESS`] of the list: what is incident to all that is near, as the segments of a fan at its vertex, stays on it
-/// however small the cell.
+/// A cell smaller than the function there is not split once this number of levels in a row have each left out less than 1 /
+/// [`PROGRESS`] of the list: features incident to everything nearby, such as the segments of a fan at its vertex, stay on the
+/// list however small the cell.
 const IDLE_LEVELS: usize = 2;
 
 /// See [`IDLE_LEVELS`].
 const PROGRESS: usize = 8;
 
-/// The tree is cut into so many subtrees at least, which are built side by side.
+/// The tree is cut into at least this number of subtrees, which are built in parallel.
 const SUBTREES: usize = 256;
 
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +67,7 @@ struct Tree {
     lists: Vec<u32>,
 }
 
-/// What decides at the centre of a disc.
+/// The items that decide at the centre of a disc.
 struct Rival {
     view: View,
     radius: f64,
@@ -86,24 +86,24 @@ impl Rival {
     fn may_lose(&self, to: &View, slope: f64) -> bool {
         let lead = (to.value - self.view.value) / slope;
         let rest = lead - self.turn - to.turn(self.radius);
-        // Squares spare a root.
+        // Comparing squares saves a root.
         let apart = self.view.away.distance_squared(to.away);
         lead <= 2.0 * self.radius && (rest <= 0.0 || rest * rest <= self.radius * self.radius * apart)
     }
 }
 
-/// A cell with what matters in it, that may be split.
+/// A cell with the items that matter in it, which may be split.
 struct Pending {
     cell: Rect,
     depth: usize,
     list: Vec<u32>,
     asked: Asked,
-    /// Levels in turn that left out next to nothing.
+    /// Levels in a row that left out next to nothing.
     idle: usize,
     is_leaf: bool,
 }
 
-/// What is the same for all cells.
+/// What all cells have in common.
 struct Builder<'a, I> {
     items: &'a I,
     scale: &'a Scale,
@@ -137,7 +137,7 @@ impl<I: Items> Builder<'_, I> {
         parts(of.cell, self.scale.axes(of.depth)).map(|part| self.cell(part, of.depth + 1, given))
     }
 
-    /// Takes from a list what matters in the cell, and decides whether the cell is to be split.
+    /// Keeps the items of a list that matter in the cell, and decides whether the cell is to be split.
     fn select(&self, pending: &mut Pending, from: &[u32]) {
         let items = self.items;
         let centre = pending.cell.centre();
@@ -286,7 +286,7 @@ impl Shortlists {
         Self { root, scale, tree }
     }
 
-    /// The items that decide the function at `x`, those that stand for others last; none outside the root.
+    /// The items that decide the function at `x`, those that replace others last; none outside the root.
     #[inline]
     pub fn at(&self, x: DVec2) -> Option<&[u32]> {
         if !self.root.contains(x) {

@@ -1,10 +1,10 @@
 //! The envelope of sizes at points (§2.3): the largest α-Lipschitz function that is nowhere above them.
 //!
 //! F(x) = min over samples of f_k + α‖x − x_k‖, exactly: each sample is a cell without extent among the terms of a [`Limited`], in
-//! a tree that halves the samples by their places, so that a query looks at few of them.
+//! a tree that halves the samples by their places, so that a query visits few of them.
 //!
 //! # Cost
-//! O(n log n) to build; a query is branch and bound, as that of a limited spacing.
+//! O(n log n) to build; a query is branch and bound, as for a limited spacing.
 
 use crate::domain::LARGEST_COORDINATE;
 use crate::geometry::{DVec2, Rect};
@@ -14,7 +14,7 @@ use crate::spacing::limit::limited::Branch;
 /// The envelope of `values` at `points`.
 ///
 /// # Errors
-/// What is wrong: no points, a value that is not positive, coordinates that no domain may have, or no finite α.
+/// A message that says what is wrong: no points, a value that is not positive, coordinates that no domain may have, or no finite α.
 pub fn of_samples(alpha: f64, points: &[DVec2], values: &[f64]) -> Result<Limited, String> {
     if !(alpha > 0.0 && alpha.is_finite()) {
         return Err(format!(

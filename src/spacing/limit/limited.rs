@@ -21,8 +21,8 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// A term: a square cell and its v. Or a box around several, the smallest v among them, and where they stand; they are within
-    /// it also after its centre is rounded.
+    /// A term: a square cell and its v. Or a box around several terms, the smallest v among them, and their places in the list; the
+    /// box contains them even after its centre is rounded.
     pub fn new(cell: Rect, lowest: f64, parts: Range<usize>) -> Self {
         let half = if parts.is_empty() {
             DVec2::splat(0.5 * cell.size().max_element())
@@ -48,7 +48,7 @@ impl Branch {
         self.parts == 0
     }
 
-    /// Where its parts stand.
+    /// The places of its parts in the list.
     fn range(&self) -> Range<u32> {
         self.first..self.first + self.parts
     }
@@ -66,7 +66,7 @@ fn beyond(offset: DVec2, half: DVec2) -> f64 {
     (offset.abs() - half).max(DVec2::ZERO).length()
 }
 
-/// The gradient-limited spacing F: α-Lipschitz everywhere, since each term is and a minimum keeps that (Lemma 2.3).
+/// The gradient-limited spacing F: α-Lipschitz everywhere, since each term is, and so is their minimum (Lemma 2.3).
 #[derive(Clone, Debug)]
 pub struct Limited {
     alpha: f64,
@@ -84,8 +84,8 @@ impl Limited {
         }
     }
 
-    /// The same function, with lists of what matters of it wherever `domain` is: they take some time to make, and queries on
-    /// coasts are four to six times as fast for α up to 1/2, and less beyond.
+    /// The same function, with lists of the terms that matter everywhere in `domain`: the lists take some time to make; queries on
+    /// coasts are four to six times as fast for α up to 1/2, and gain less beyond.
     pub fn listed(mut self, domain: &Domain) -> Self {
         self.listed = Some(Listed::new(&self, domain));
         self
@@ -105,7 +105,7 @@ impl Limited {
         }
     }
 
-    /// The same, for a branch that is no term, with its bound there.
+    /// The same, for a branch that is not a term, with its bound there.
     fn lowest_below(&self, from: (f64, u32), x: DVec2, mut best: (f64, u32)) -> (f64, u32) {
         let mut waiting = Waiting::new(from.0, from.1);
         while let Some((bound, index)) = waiting.next() {

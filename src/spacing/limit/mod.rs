@@ -7,7 +7,7 @@
 //! > F(x) = min over cells C of v_C + α · dist(x, C), where v_C ≤ f on C ∩ Ω is proved.
 //!
 //! # Guarantee
-//! * F is α-Lipschitz everywhere: each term is, and a minimum keeps that (Lemma 2.3).
+//! * F is α-Lipschitz everywhere: each term is, and so is their minimum (Lemma 2.3).
 //! * F ≤ f on Ω. In a kept cell C, F ≤ v_C ≤ f. A cell D is dropped only when some sample y ∈ Ω outside it has
 //!   f(y) + α max over x ∈ D of ‖x − y‖ ≤ v_D, so f(x) ≥ f(y) + α‖x − y‖ on D ∩ Ω: it is enough that F(y) ≤ f(y).
 //!   Now y may itself lie in a dropped cell, but f(y) < f(x), and there are finitely many samples: following them ends
@@ -45,22 +45,23 @@ use crate::spacing::{Scaled, Spacing, SpacingError, geodesic};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Most cells that may be looked at: about 1.2 GB.
+/// Most cells that may be visited: about 1.2 GB.
 const MAX_CELLS: usize = 12_000_000;
 
-/// The largest α for which F is given its lists ([`Limited::listed`]). Measured on the coasts of norway, iceland and aegean, setting
-/// up included: meshing takes 0.80 to 0.91 of the time for α up to 1/3, 0.83 to 0.95 at 0.4, 0.96 to 1.09 at 1/2, and 1.3 times at 5/6,
-/// where a long list is little better than the search and takes long to make. F has the same bits either way.
+/// The largest α for which F is given its lists ([`Limited::listed`]). Measured on the coasts of norway, iceland and aegean,
+/// setting up included: meshing takes 0.80 to 0.91 of the time for α up to 1/3, 0.83 to 0.95 at 0.4, 0.96 to 1.09 at 1/2, and
+/// 1.3 times at 5/6, where a long list is little better than the search and takes long to make. F is the same to the last bit
+/// either way.
 const LISTED_UP_TO: f64 = 0.4;
 
 /// A function at most `function` on Ω, at least `factor` of the largest α-Lipschitz one below it, and α-Lipschitz.
 ///
-/// Where α ≥ λ, the constant of `function` itself, that is `function`; where α ≥ factor · λ it is (α / λ) · `function`;
-/// otherwise it is a [`Limited`], or a [`geodesic::GeodesicLimited`] where distances are measured inside the domain.
+/// If α ≥ λ, the constant of `function` itself, this is `function`; if α ≥ factor · λ it is (α / λ) · `function`;
+/// otherwise it is a [`Limited`], or a [`geodesic::GeodesicLimited`] if distances are measured inside the domain.
 ///
 /// # Errors
-/// [`SpacingError::NotPositive`] where `function` is not positive on Ω, [`SpacingError::Unresolved`] where it is too small
-/// for any cell, [`SpacingError::TooManyCells`] where the envelope needs too many.
+/// [`SpacingError::NotPositive`] if `function` is not positive on Ω, [`SpacingError::Unresolved`] if it is too small
+/// for any cell, [`SpacingError::TooManyCells`] if the envelope needs too many.
 pub fn limit(
     function: Arc<dyn Spacing>,
     domain: &Domain,
@@ -87,14 +88,14 @@ pub fn limit(
     }))
 }
 
-/// What became of a cell.
+/// The fate of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fate {
     /// Dominated, or outside Ω.
     Dropped,
     /// A term of F.
     Kept,
-    /// Its four quarters say it better.
+    /// Replaced by its four quarters.
     Split,
 }
 
@@ -104,7 +105,7 @@ struct Refinement<'a> {
     domain: &'a Domain,
     alpha: f64,
     factor: f64,
-    /// Most cells that may be looked at.
+    /// Most cells that may be visited.
     most: usize,
     /// Room for rounding in a lower bound, a length.
     slack: f64,
@@ -162,7 +163,7 @@ impl Refinement<'_> {
             .collect()
     }
 
-    /// The best sample a cell offers, and the lower bound of f on it.
+    /// The best sample of a cell, and the lower bound of f on it.
     fn look(&self, cell: &Cell, seeds: &[[Seed; 3]]) -> (Seed, f64) {
         let at = cell.point(self.domain);
         let value = self.function.at(at);
@@ -255,7 +256,7 @@ impl Refinement<'_> {
         Ok(next)
     }
 
-    /// Drops kept cells that samples dominate, and joins quarters into their cell where that may be kept.
+    /// Drops kept cells that samples dominate, and joins quarters into their cell if that may be kept.
     fn join(&mut self, starts: &[usize]) {
         let mut end = self.fates.len();
         for &start in starts.iter().rev() {
@@ -273,8 +274,8 @@ impl Refinement<'_> {
         }
     }
 
-    /// The fate of a node when those below are settled. A joined cell takes the lowest of its kept quarters: the
-    /// dropped ones are dominated whatever it says.
+    /// The fate of a node when those below are settled. A joined cell takes the lowest value of its kept quarters: the dropped
+    /// ones are dominated whatever this value is.
     fn judge(&self, node: usize) -> (Fate, f64) {
         let children = self.samples.children(node);
         let kept = children.clone().filter(|&child| self.fates[child] == Fate::Kept);
@@ -290,7 +291,7 @@ impl Refinement<'_> {
 
     /// The kept cells as terms, in boxes that are no larger than their terms need and have two parts or more, level by level.
     fn pack(&self) -> Vec<Branch> {
-        // The box around the terms of each cell, with the lowest v among them; none where nothing is kept.
+        // The box around the terms of each cell, with the lowest v among them; none if nothing is kept.
         let mut tight: Vec<Option<(Rect, f64)>> = vec![None; self.fates.len()];
         for node in (0..tight.len()).rev() {
             tight[node] = match self.fates[node] {

@@ -14,16 +14,16 @@ use crate::spacing::cover::{Cell, DEPTH};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Cells that are looked at for a point: where f rises as fast as α many say nearly the same.
+/// Most cells visited for a point: where f rises as fast as α, many have nearly the same bound.
 const BUDGET: usize = 2_000_000;
 
 /// The interval in which the largest `alpha`-Lipschitz function below a positive `f` on `domain` lies at `x`: within a share `gap`
-/// where so many cells as there is patience for are enough.
+/// if [`BUDGET`] cells are enough.
 fn largest_at(f: &dyn Spacing, domain: &Domain, alpha: f64, x: DVec2, gap: f64) -> [f64; 2] {
     let value = |y: DVec2| f.at(y) + alpha * x.distance(y);
     let mut most = if domain.contains(x) { f.at(x) } else { f64::INFINITY };
     let mut cells = vec![Some((Cell::root(domain), 0))];
-    // The lowest bound first. Bounds are not negative, so that their bits are ordered as they are.
+    // The lowest bound first. Bounds are not negative, so their bits have the same order.
     let mut waiting = BinaryHeap::from([Reverse((0f64.to_bits(), 0))]);
     while let Some(Reverse((bits, index))) = waiting.pop() {
         let above = f64::from_bits(bits);
@@ -75,8 +75,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
-        /// As measured once on the coast of norway, at 600 points for each of nine α: at least 0.900 of the largest function, up to all
-        /// of it.
+        /// As measured once on the coast of norway, at 600 points for each of nine α: at least 0.900 of the largest function,
+        /// up to all of it.
         #[test]
         fn the_limiter_is_below_it_and_within_its_factor(seed in 0u64..1000, alpha in 0.05f64..1.05) {
             let domain = gallery(&format!("random-simple:n=16,seed={seed}"));

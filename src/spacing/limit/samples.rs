@@ -18,7 +18,7 @@ struct Node {
     children: u32,
 }
 
-/// A quadtree with one sample a cell.
+/// A quadtree with one sample per cell.
 #[derive(Clone, Debug)]
 pub struct Samples {
     nodes: Vec<Node>,
@@ -87,8 +87,8 @@ impl Samples {
         node.value + self.alpha * node.at.distance(x)
     }
 
-    /// Whether some sample y has an f(y) + α‖x − y‖ that `suffices`, as must all that is lower than one that does; `near` is a
-    /// node whose sample is looked at first.
+    /// Whether f(y) + α‖x − y‖ `suffices` for some sample y; whatever is lower than a value that suffices must suffice too. The
+    /// sample of the node `near` is tried first.
     pub fn any(&self, x: DVec2, near: usize, suffices: impl Fn(f64) -> bool) -> bool {
         if suffices(self.through(&self.nodes[near], x)) {
             return true;

@@ -1,14 +1,14 @@
-//! What waits in a search for the lowest value in a quadtree, the most promising on top.
+//! The nodes that wait in a search for the lowest value in a quadtree, the most promising on top.
 
 use crate::spacing::cover::DEPTH;
 
-/// Most that wait: three a level, and the four that are being entered.
+/// Most nodes that wait: three per level, and the four that are being entered.
 const MOST: usize = 3 * DEPTH + 8;
 
 /// Nodes of a quadtree with lower bounds of what is below them. Those filed between two calls of [`Waiting::next`] are entered in
 /// ascending order of their bounds, before all that were there.
 pub struct Waiting {
-    // Apart, so that they are cleared at one go.
+    // Apart, so that they are cleared together.
     bounds: [f64; MOST],
     nodes: [u32; MOST],
     height: usize,

@@ -1,4 +1,4 @@
-//! What a spacing is made of before it is limited (§2.3): lfs where it caps, nsf where something else is asked for, and gns, the
+//! What a spacing is made of before it is limited (§2.3): lfs if it caps, nsf if something else is asked for, and gns, the
 //! smaller of the two.
 
 use crate::domain::Domain;
@@ -15,16 +15,16 @@ use std::sync::Arc;
 /// lfs, nsf and gns.
 #[derive(Clone)]
 pub struct Ingredients {
-    /// What geometry alone asks for, and f is nowhere above; absent where it has no say.
+    /// What geometry alone asks for, which f is nowhere above; absent if f is not capped.
     pub lfs: Option<Arc<dyn Spacing>>,
-    /// What is asked for beside lfs, if anything is.
+    /// What is asked for besides lfs, if anything is.
     pub nsf: Option<Arc<dyn Spacing>>,
     /// The smaller of the two.
     pub gns: Arc<dyn Spacing>,
 }
 
 impl Ingredients {
-    /// Of `spec` on `domain`, capped by lfs where `lfs_cap` or `spec` says so.
+    /// For `spec` on `domain`, capped by lfs if `lfs_cap` or `spec` says so.
     ///
     /// # Errors
     /// Everything in [`SpacingError`].
@@ -71,7 +71,7 @@ fn collect(spec: &Spec, bounds: Rect, parts: &mut Vec<Arc<dyn Spacing>>) -> Resu
         }
         Spec::Points { file, factor, alpha } => {
             let factor = factor.unwrap_or(1.0);
-            // 1 as lfs has it, unless told.
+            // 1, as for lfs, unless given.
             let read = files::read_points_with_values(file.as_ref());
             let envelope = on_mesh(spec, read, |(points, values)| {
                 let values: Vec<f64> = values.iter().map(|value| factor * value).collect();

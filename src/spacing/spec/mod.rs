@@ -5,7 +5,7 @@
 //!      | field:FILE;eps=E[;min=A][;max=B] | points:FILE[;factor=K][;alpha=A] | el:FILE[;factor=K] | nn:FILE[;factor=K]
 //!      | min(SPEC, SPEC, …)
 //! ```
-//! Commas split `min` where no parenthesis of an expression is open; a file's name has no commas, semicolons or parentheses.
+//! Commas split `min` outside the parentheses of an expression; a file's name has no commas, semicolons or parentheses.
 //! `lfs:geodesic` stands alone or in a `min` without `lfs`, which it is nowhere below.
 
 pub(super) mod ingredients;
@@ -51,7 +51,7 @@ pub enum Spec {
         file: String,
         /// What they are multiplied by.
         factor: Option<f64>,
-        /// By how much f may grow away from them.
+        /// How much f may grow away from them, per unit of distance.
         alpha: Option<f64>,
     },
     /// el_M of §2.1 for the mesh in a file, times a factor if there is one.
@@ -127,7 +127,7 @@ impl Spec {
         }
     }
 
-    /// Whether lfs as the plane has it is in it.
+    /// Whether the lfs of the plane is part of it.
     fn is_euclidean_lfs(&self) -> bool {
         match self {
             Self::Lfs => true,
@@ -140,7 +140,7 @@ impl Spec {
 /// The SPEC whose edges are about as long as `expression` says: f = size / c_b.
 ///
 /// # Errors
-/// [`SpacingError::Parse`] where `expression` is none.
+/// [`SpacingError::Parse`] if `expression` is not an expression.
 pub fn spec_for_size(expression: &str, c_b: f64) -> Result<String, SpacingError> {
     grammar::compile(expression).map_err(|source| SpacingError::Parse {
         spec: expression.into(),
@@ -185,7 +185,7 @@ impl Reader<'_> {
             return Ok(spec);
         }
         if text.starts_with("gns:") {
-            // A kind of its own once, which scripts may still have.
+            // This kind existed once, and scripts may still use it.
             return Err(self.error(
                 from,
                 "write SPEC in place of gns:SPEC, since every spacing is capped by lfs; where that cap is lifted, min(lfs, SPEC)",
@@ -259,7 +259,7 @@ impl Reader<'_> {
         spec
     }
 
-    /// Refuses `text`, which starts at `start`, where it is no expression.
+    /// Refuses `text`, which starts at `start`, if it is not an expression.
     fn compiles(&self, text: &str, start: usize) -> Result<(), SpacingError> {
         let Err(source) = grammar::compile(text) else {
             return Ok(());

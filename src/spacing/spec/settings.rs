@@ -9,7 +9,7 @@ pub type Fault = (usize, String);
 /// The argument in front of the settings with one value for each of `names`, in their order.
 ///
 /// # Errors
-/// Names that are unknown or given twice, values that are no positive numbers.
+/// Names that are unknown or given twice, values that are not positive numbers.
 pub fn read<'a, const N: usize>(text: &'a str, names: [&str; N]) -> Result<(&'a str, [Value; N]), Fault> {
     let mut values = [None; N];
     let argument = text.split(';').next().unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use crate::geometry::DVec2;
 
-/// Bits of a place in the root along each axis, of the 64 there is room for: a level takes one of each, or two of one.
+/// Bits of a place in the root along each axis, out of 64: a level takes one bit of each axis, or two of one.
 const BITS: i32 = 63;
 
 /// Most levels of strips: they suffice for a root a million million times as long as wide, and leave bits for all levels.
@@ -26,7 +26,7 @@ pub struct Path {
 }
 
 impl Scale {
-    /// For a root of that size.
+    /// For a root of the given size.
     pub fn new(size: DVec2) -> Self {
         let across = usize::from(size.y > size.x);
         let mut ratio = size[across] / size[1 - across];

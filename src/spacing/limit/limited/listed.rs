@@ -1,7 +1,7 @@
 //! Lists of the terms of F that matter in each part of a domain: the leaves of a quadtree (§2.3, end).
 //!
-//! Nothing is interpolated from the corners of a leaf, as the paper's remark suggests: F is evaluated, and so stays α-Lipschitz across
-//! leaves of any sizes. The quadtree need not be balanced, and is not.
+//! The paper suggests interpolation from the corners of a leaf; here F itself is evaluated, and so stays α-Lipschitz across leaves
+//! of any sizes. The quadtree need not be balanced, and is not.
 
 use crate::domain::Domain;
 use crate::geometry::{DVec2, Rect};
@@ -12,11 +12,11 @@ use crate::spacing::limit::limited::{Branch, Limited, beyond};
 use std::hint::select_unpredictable;
 use std::ops::Range;
 
-/// Branches more than so large, as a share of a cell's side, do not stand in its list: their parts do.
+/// Branches larger than this share of a cell's side are not in its list: their parts are.
 const COARSE: f64 = 0.02;
 
-/// A list so short is left alone, and one longer once its cell's radius is this share of F or, the longer the list, less: with
-/// finer cells lists would take longer to make than queries gain.
+/// A list as short as this is not split further, nor is a longer one once its cell's radius is this share of F or, the longer
+/// the list, a smaller one: with finer cells lists would take longer to make than queries gain.
 const FINEST: f64 = 0.4;
 const SHORT: usize = 48;
 
@@ -39,11 +39,11 @@ impl Term {
     }
 }
 
-/// The terms along their tree, so that those of a list stand near one another, and the lists.
+/// The terms in the order of their tree, so that those of a list are near one another, and the lists.
 #[derive(Clone, Debug)]
 pub struct Listed {
     terms: Vec<Term>,
-    /// Of numbers of terms and, beyond these, of branches: the branches of a list stand last in it.
+    /// Lists of numbers of terms and, beyond these, of branches, which come last in a list.
     lists: Shortlists,
 }
 
@@ -71,7 +71,7 @@ impl Listed {
         Self { terms, lists }
     }
 
-    /// F at `x`; none outside the domain, and where a list would be long.
+    /// F at `x`; none outside the domain, or where a list would be long.
     #[inline]
     pub fn at(&self, x: DVec2, limited: &Limited) -> Option<f64> {
         let list = self.lists.at(x).filter(|list| !list.is_empty())?;
@@ -87,7 +87,7 @@ impl Listed {
     }
 }
 
-/// The terms of F, as they matter in a domain.
+/// The terms of F as items, for the lists of a domain.
 struct Terms<'a> {
     limited: &'a Limited,
     domain: &'a Domain,
