@@ -7,9 +7,9 @@ use std::time::Instant;
 /// Limits that end in [`MeshError::Budget`], never in a hang.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
-    /// Most vertices a mesh may have.
+    /// Most vertices that a mesh may have.
     pub max_vertices: Option<usize>,
-    /// Most seconds a mesher may take.
+    /// Most seconds that a mesher may take.
     pub max_seconds: Option<f64>,
     /// Most resident memory of the process, in bytes.
     pub max_memory: Option<u64>,
@@ -22,7 +22,7 @@ pub(super) struct Monitor {
     start: Instant,
 }
 
-/// Clock and memory are looked at once in so many vertices.
+/// Clock and memory are checked once in this number of vertices.
 const VERTICES_BETWEEN_LOOKS: usize = 1 << 12;
 
 impl Monitor {
@@ -33,7 +33,7 @@ impl Monitor {
         }
     }
 
-    /// Called with the number of vertices so far, and where and at which size the next one goes.
+    /// To be called with the number of vertices so far, the place of the next one, and the size there.
     pub fn placed(&self, vertices: usize, at: DVec2, size: f64) -> Result<(), MeshError> {
         // Every mesh has fewer than 2³² vertices: indices are u32.
         let most = self
@@ -51,7 +51,7 @@ impl Monitor {
         }
     }
 
-    /// Looks at clock and memory: for work that takes long without placing vertices. Arguments as for [`Self::placed`].
+    /// Checks clock and memory, for work that takes long without placing vertices. Arguments as for [`Self::placed`].
     pub fn look(&self, vertices: usize, at: DVec2, size: f64) -> Result<(), MeshError> {
         let stop = |budget| Err(stopped(budget, vertices, at, size));
         match self.budget {
@@ -77,7 +77,7 @@ fn stopped(budget: String, vertices: usize, at: DVec2, size: f64) -> MeshError {
     }
 }
 
-/// Resident memory of the process in bytes, where the system tells (Linux).
+/// Resident memory of the process in bytes, where the system reports it (Linux).
 pub(crate) fn resident_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

@@ -1,4 +1,4 @@
-//! The trait [`Mesher`], what it is asked ([`Request`]) and how it answers, and the list of all meshers.
+//! The trait [`Mesher`], what is asked of one ([`Request`]) and what it returns, and the list of all meshers.
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
@@ -46,7 +46,7 @@ impl Entry {
     }
 }
 
-/// The parameters given, and the defaults of the others that there are.
+/// The parameters given, and the defaults of the others.
 pub(crate) fn complete(parameters: &[Parameter], given: &Parameters) -> Parameters {
     let mut all: Parameters = parameters
         .iter()
@@ -56,7 +56,7 @@ pub(crate) fn complete(parameters: &[Parameter], given: &Parameters) -> Paramete
     all
 }
 
-/// A parameter's value as it is written on a command line: as JSON where it is some, else as text.
+/// A parameter's value as it is written on a command line: as JSON if it is JSON, else as text.
 pub fn parameter_value(text: &str) -> serde_json::Value {
     serde_json::from_str(text).unwrap_or_else(|_| text.into())
 }
@@ -65,15 +65,15 @@ pub fn parameter_value(text: &str) -> serde_json::Value {
 pub struct Parameter {
     /// Field of the mesher's struct.
     pub name: &'static str,
-    /// Values it takes.
+    /// The values it can have.
     pub values: &'static str,
-    /// Value where none is given.
+    /// The value if none is given.
     pub default: &'static str,
     /// What it does, and where it comes from.
     pub help: &'static str,
 }
 
-/// Every mesher there is.
+/// Every mesher of the library.
 pub static MESHERS: &[Entry] = &[
     biting::ENTRY,
     quadtree_mis::ENTRY,
@@ -86,7 +86,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     MESHERS.iter().find(|entry| entry.name == name)
 }
 
-/// Names the first parameter out of its range, of some with their values, least and most.
+/// An error that names the first parameter out of its range; each comes with its value, the least and the most it may be.
 fn within(ranges: &[(&str, f64, f64, f64)]) -> Result<(), String> {
     match ranges
         .iter()
@@ -107,7 +107,7 @@ fn from_parameters<M: Mesher + serde::de::DeserializeOwned + 'static>(
     Ok(Box::new(mesher))
 }
 
-/// Refuses a spacing whose Lipschitz constant is by distances inside the domain, for a method that counts on it across the
+/// Refuses a spacing whose Lipschitz constant is for distances inside the domain, for a method that relies on it across the
 /// outside too.
 fn refuse_geodesic(spacing: &dyn Spacing) -> Result<(), MeshError> {
     match spacing.is_geodesic() {
@@ -127,9 +127,9 @@ pub struct Request {
     pub c_b: f64,
     /// Seed of everything random.
     pub seed: u64,
-    /// Threads a mesher may use; the mesh does not depend on it.
+    /// Threads that a mesher may use; the mesh does not depend on them.
     pub threads: usize,
-    /// Where to give up.
+    /// When to give up.
     pub budget: Budget,
 }
 
@@ -172,7 +172,7 @@ pub enum MeshError {
         /// Where.
         y: f64,
     },
-    /// The spacing is steeper between two points than the constant it promises.
+    /// The spacing changes faster between two points than the constant that it promises.
     #[error(
         "spacing is {} at ({:?}, {:?}) and {} at ({:?}, {:?}): a change of more than {alpha} times their distance, which is what \
          lipschitz() promises; limit it, or promise less",
@@ -194,14 +194,14 @@ pub enum MeshError {
     Triangulation(#[from] crate::delaunay::TriangulationError),
 }
 
-/// Times the steps of a run by the paper's names and can carry snapshots for figures.
+/// Times the steps of a run by the paper's names, and can note every bite for figures.
 #[derive(Debug, Default)]
 pub struct Trace {
     /// Steps in the order they ran.
     pub steps: Vec<(&'static str, Duration)>,
-    /// Counts a mesher reports beside its mesh, such as bites or forced pieces.
+    /// Counts that a mesher reports beside its mesh, such as bites or forced pieces.
     pub counts: Vec<(&'static str, f64)>,
-    /// Every bite in order, for figures and replays: noted only where there is a list, as in [`Trace::noting_bites`].
+    /// Every bite in order, for figures and replays: noted only if there is a list, as in [`Trace::noting_bites`].
     pub bites: Option<Vec<Bite>>,
 }
 
@@ -235,7 +235,7 @@ pub trait Mesher: Send + Sync {
         Ok(())
     }
 
-    /// Whose spacing sets the distance of two points: the paper's rule where the method knows no other.
+    /// Whose spacing sets the distance of two points: the paper's rule if the method knows no other.
     fn rule(&self) -> Rule {
         Rule::Earlier
     }

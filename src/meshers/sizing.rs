@@ -1,4 +1,4 @@
-//! The target edge length s = c_b f, refused where f breaks its promise or coordinates cannot resolve it.
+//! The target edge length s = c_b f, refused if f breaks its promise or coordinates cannot resolve it.
 
 use super::{MeshError, Request};
 use crate::domain::Domain;
@@ -7,13 +7,13 @@ use crate::mesh::Mesh;
 use crate::spacing::Spacing;
 use std::f64::consts::SQRT_2;
 
-/// s as every mesher asks for it: equal work for all.
+/// s, which all meshers take from here: equal work for all.
 #[derive(Clone, Copy)]
 pub(super) struct Sizing<'a> {
     pub spacing: &'a dyn Spacing,
     c_b: f64,
     smallest: f64,
-    /// What rounding of coordinates can make of a difference of two sizes.
+    /// The most by which rounding of coordinates can change the difference of two sizes.
     slack: f64,
 }
 
@@ -28,7 +28,7 @@ impl<'a> Sizing<'a> {
         }
     }
 
-    /// The smallest s there may be: points closer than that cannot be told apart well enough.
+    /// The smallest s there may be: coordinates do not resolve points closer than that well enough.
     pub fn smallest(&self) -> f64 {
         self.smallest
     }
@@ -38,7 +38,7 @@ impl<'a> Sizing<'a> {
         self.c_b * self.spacing.lipschitz()
     }
 
-    /// s(x) as it comes: for points that may lie outside the domain, where f promises nothing.
+    /// s(x) unchecked, for points that may lie outside the domain, where f promises nothing.
     pub fn unchecked(&self, x: DVec2) -> f64 {
         self.c_b * self.spacing.at(x)
     }
@@ -60,8 +60,8 @@ impl<'a> Sizing<'a> {
         Ok(size)
     }
 
-    /// Refuses two points whose sizes, as [`Self::at`] gave them, differ by more than a t-Lipschitz s can. Meshers ask where
-    /// they rely on it: of a new vertex and those near it.
+    /// Refuses two points whose sizes, as [`Self::at`] returned them, differ by more than those of a t-Lipschitz s can. Meshers
+    /// call this where they rely on it: for a new vertex and those near it.
     pub fn agree(&self, points: [DVec2; 2], sizes: [f64; 2]) -> Result<(), MeshError> {
         let change = (sizes[0] - sizes[1]).abs();
         // Around a right angle the way inside the domain is longer by √2.
@@ -78,7 +78,7 @@ impl<'a> Sizing<'a> {
         Ok(())
     }
 
-    /// [`Self::agree`] for the ends of every edge: where circles whose sizes do not agree are not found to be near each other.
+    /// [`Self::agree`] for the ends of every edge, for methods that may not find circles near each other if their sizes disagree.
     pub fn agree_along_edges(&self, mesh: &Mesh) -> Result<(), MeshError> {
         let sizes: Vec<f64> = mesh.points.iter().map(|&x| self.at(x)).collect::<Result<_, _>>()?;
         for corners in &mesh.triangles {

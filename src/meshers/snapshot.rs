@@ -1,4 +1,4 @@
-//! What a figure or a replay wants to know of every bite.
+//! What figures and replays need to know about every bite.
 
 use crate::geometry::DVec2;
 
@@ -13,7 +13,7 @@ pub struct Bite {
     pub reason: Reason,
     /// Front vertices that it made. Those between boundary circles come with the last of these, when the front opens.
     pub appeared: Vec<Waiting>,
-    /// Serial numbers of the front vertices that it bit away; where its centre was one, that is the first.
+    /// Serial numbers of the front vertices that it bit away; if its centre was one, that is the first.
     pub gone: Vec<u32>,
 }
 
@@ -28,7 +28,7 @@ impl Bite {
         }
     }
 
-    /// Notes that a front vertex is gone.
+    /// Notes that a front vertex was bitten away.
     pub(super) fn bite_away(&mut self, serial: u32, point: DVec2) {
         self.gone.push(serial);
         if point == self.centre {
@@ -70,6 +70,6 @@ pub struct Waiting {
     pub point: DVec2,
     /// The two bites on whose circles it lies.
     pub circles: [u32; 2],
-    /// The smaller, the earlier; equal ranks by serial number. 0 where the order has none.
+    /// The smaller, the earlier; equal ranks by serial number. 0 if the order has no ranks.
     pub rank: f64,
 }

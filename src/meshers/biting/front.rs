@@ -4,12 +4,12 @@
 //! The front is the boundary of what no biting circle covers yet. Once the input boundary is bitten it consists of arcs
 //! of biting circles only, and two neighbouring arcs meet at a front vertex. So the front is kept as its vertices, each
 //! filed under its two circles; the arcs of a circle run between the vertices filed under it. A new bite meets a
-//! bounded number of circles, all of them near and of neighbouring radius ([`DiscGrid`]); vertices filed under those
-//! and inside the bite are gone, and the points where the new circle leaves them are the new vertices, if no other
-//! circle covers them.
+//! bounded number of circles, all of them near and of similar radius ([`DiscGrid`]). Vertices filed under those and inside
+//! the bite are removed, and the points where the new circle crosses those circles are the new vertices, if no other circle
+//! covers them.
 //!
 //! # Cost
-//! O(1) a bite, however graded the spacing is; nothing is scanned globally or rebuilt.
+//! O(1) per bite, however graded the spacing is; nothing is scanned globally or rebuilt.
 
 use crate::domain::Domain;
 use crate::geometry::near::{Disc, DiscGrid, Near};
@@ -55,7 +55,7 @@ fn cosine(u: DVec2, v: DVec2) -> f64 {
     u.dot(v) / (u.length_squared() * v.length_squared()).sqrt()
 }
 
-/// A front vertex in store: filed under two circles by two linked lists.
+/// A stored front vertex, filed under two circles by two linked lists.
 #[derive(Clone, Copy, Debug)]
 struct Slot {
     point: DVec2,
@@ -63,7 +63,7 @@ struct Slot {
     discs: [u32; 2],
     /// The next vertex under each of the two circles.
     next: [u32; 2],
-    /// Tells this vertex from others that stood here before; [`NONE`] once bitten away.
+    /// Distinguishes this vertex from earlier ones in the same slot; [`NONE`] once bitten away.
     serial: u32,
 }
 
@@ -78,7 +78,7 @@ pub(super) struct Front<'a> {
     notches: &'a Notches,
     /// For each circle, whether it may hold points that its centre cannot see.
     pub beside_notch: Vec<bool>,
-    /// What circles reach inside the domain, where nothing else counts of them.
+    /// What circles reach inside the domain, if only that counts.
     inside: Option<Inside>,
     pub radii: Sizing<'a>,
     pub rule: Rule,
@@ -96,7 +96,7 @@ pub(super) struct Front<'a> {
     /// The two circles that the vertex taken last lies on.
     parents: [u32; 2],
     monitor: Monitor,
-    /// Where bites are noted, if they are.
+    /// The list of bites, if they are noted.
     pub log: Option<Vec<Bite>>,
 }
 
@@ -133,7 +133,7 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// c_b f(x), refused where f breaks its promise or the coordinates cannot resolve it.
+    /// c_b f(x), refused if f breaks its promise or the coordinates cannot resolve it.
     pub fn radius_at(&self, x: DVec2) -> Result<f64, MeshError> {
         self.radii.at(x)
     }
@@ -141,7 +141,7 @@ impl<'a> Front<'a> {
     /// Bites at a point of the input boundary and returns the number of the mesh vertex. The arcs follow in
     /// [`Front::open`], once the boundary is covered.
     pub fn bite_boundary(&mut self, disc: Disc, reason: Reason) -> Result<u32, MeshError> {
-        // Vertices cut off are mesh vertices too, and get no circle.
+        // Vertices that are cut off are mesh vertices too, but get no circle.
         Ok(self.insert(disc, reason)? + self.cuts.count as u32)
     }
 
@@ -152,8 +152,8 @@ impl<'a> Front<'a> {
         input.iter().copied().chain(others.map(|disc| disc.centre)).collect()
     }
 
-    /// Whether no notch stands between the centre of a bitten disc and a point that it holds and, where distances are measured
-    /// inside the domain, the disc reaches it.
+    /// Whether no notch lies between the centre of a bitten disc and a point that it holds and, if distances are measured
+    /// inside the domain, the disc reaches the point.
     pub fn sees(&self, id: u32, point: DVec2) -> bool {
         let is_parted = self.beside_notch[id as usize] && self.notches.part(self.bitten.disc(id).centre, point);
         !is_parted && self.inside.as_ref().is_none_or(|inside| inside.reaches(id, point))
@@ -322,8 +322,8 @@ impl<'a> Front<'a> {
         Ok(())
     }
 
-    /// Whether a disc of `near` other than the one at `except` covers the point. Reaches count as a little smaller than they
-    /// are, so that a vertex on several circles at once is kept.
+    /// Whether a disc of `near` other than the one at `except` covers the point. Reaches are taken a little smaller, so that a
+    /// vertex on several circles at once is kept.
     fn is_covered(&self, relative: DVec2, point: DVec2, reach: Option<f64>, near: &[Near], except: usize) -> bool {
         near.iter().enumerate().any(|(index, other)| {
             let shrunk = reach.unwrap_or(other.radius) * (1.0 - tolerance::COVERED);

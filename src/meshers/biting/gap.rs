@@ -67,7 +67,7 @@ impl Gap {
         })
     }
 
-    /// `position` as distance from the segment's first vertex.
+    /// `position` as a distance from the segment's first vertex.
     pub fn along_segment(&self, position: f64) -> f64 {
         if self.reversed {
             self.length - position
@@ -90,7 +90,7 @@ impl Gap {
         (to_centre.dot(self.direction), to_centre.perp_dot(self.direction))
     }
 
-    /// The segment's line as the point at `along`, `across` sees it, which eats a `share` of what it would.
+    /// The segment's line seen from the point at `along`, `across`, which eats only a `share` of what it would.
     fn line_past<'a>(&self, front: &Front<'a>, (along, across): (f64, f64), share: f64, guess: f64) -> PassingLine<'a> {
         PassingLine {
             sizing: front.radii,
@@ -102,8 +102,8 @@ impl Gap {
         }
     }
 
-    /// The position where the gap leaves what the centre of `near` has eaten, which holds the centre of `circle` at its low end;
-    /// past its high end if it does not, and not above the low end where rounding has it that it is left already.
+    /// The position where the gap leaves what the centre of `near` has eaten, given that this holds the low end, the centre of
+    /// `circle`. It is past the high end if the gap does not leave, and not above the low end if rounding puts that outside.
     pub fn exit(&self, front: &Front, circle: Disc, near: &Near) -> Result<f64, MeshError> {
         match front.rule {
             Rule::Earlier => Ok(self.chord(circle, near).map_or(self.low, |(_, exit)| exit)),
@@ -132,7 +132,7 @@ impl Gap {
         }
     }
 
-    /// What a bite leaves of the gap, to be seen from the other end next.
+    /// What a bite leaves of the gap, seen from the other end, where it is bitten next.
     pub fn without(
         self,
         front: &Front,

@@ -7,9 +7,9 @@
 //! shaped.
 //!
 //! # Steps
-//! 1. the control spacing is prepared before ([`crate::spacing`]);
-//! 2. the initial front is the boundary of the domain ([`front::Front::new`]);
-//!    Corners are cut off and the spacing is held down beside them ([`beyond::corners`]);
+//! 1. the control spacing is prepared beforehand ([`crate::spacing`]);
+//! 2. the initial front is the boundary of the domain ([`front::Front::new`]); corners are cut off and the spacing is held down
+//!    beside them ([`beyond::corners`]);
 //! 3. [`boundary::vertex_protection`] bites every input vertex;
 //! 4. [`boundary::edge_protection`] bites along the input segments until they are covered;
 //! 5. [`interior::interior_biting`] bites at front vertices until the front is empty;
@@ -22,19 +22,20 @@
 //! constants of f (Lemmas 5.7 and 5.8, `nn-vertex-*`, `nn-point-*`). What each needs besides is in [`crate::quality`]:
 //! the angle bound of the paper to the letter, for one, needs c_b + t ≤ 1, which the paper does not say. With corners
 //! cut off, every triangle that touches no input angle under 60° meets the angle bound (`min-angle-beyond-corners`), and no
-//! angle of the others is below the smallest input angle there (`corner-angles`); what is about f holds where
-//! nothing was cut or held down.
+//! angle of the others is below the smallest input angle there (`corner-angles`); the bounds by f hold where nothing was cut
+//! or held down.
 //!
 //! With `rule=later` two points keep the distance that the later of them asks for, and the smallest angle is at least
 //! asin((1 − t) / 2). Without a boundary that is known; [`beyond::rule`] has the theorem with a boundary, its proof and the other
 //! bounds, to which the certificate then holds the mesh.
 //!
-//! With `lfs:geodesic` circles bite what they reach inside the domain only, and the same bounds hold: [`beyond::inside`] has the argument.
+//! With `lfs:geodesic` circles bite what they reach inside the domain only, and the same bounds hold: [`beyond::inside`] has
+//! the argument.
 //!
 //! # Cost
-//! O(1) a bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
-//! O(n log n) for the triangulation. By the rule of the later point some ten evaluations of f more a bite, for the roots that
-//! its front vertices are.
+//! O(1) per bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
+//! O(n log n) for the triangulation. By the rule of the later point a bite takes about ten more evaluations of f, because its
+//! front vertices are roots.
 //!
 //! # Deviations from the paper (and why)
 //! * The paper does not say which front vertex is bitten next: [`Order`] is a parameter. Its default, the largest spacing
@@ -47,9 +48,9 @@
 //!   They need no acute angle: a middle piece on an inner segment can be 1.5 radii long, and vertices √7/4 radii above and
 //!   below its middle lie in its diametral circle.
 //! * Input angles under 90°, which the paper excludes, are cut off, as §5.1 suggests without saying how, and given back
-//!   ([`beyond::corners`]); and circles do not cover across an angle under 90° that opens to the outside ([`beyond::notches`]). With
-//!   [`Corners::Bite`] they are bitten like any other: a point of one segment that a circle of another covers already gets
-//!   no circle of its own.
+//!   ([`beyond::corners`]); and circles do not cover across an angle under 90° that opens to the outside
+//!   ([`beyond::notches`]). With [`Corners::Bite`] they are bitten like any other: a point of one segment that a circle of
+//!   another covers already gets no circle of its own.
 //! * Where the circles of a segment's two ends would cover it between them and meet low, which Lemma 6.4 does not see, they
 //!   are held apart ([`HeadOn::Part`]), so that the angle bound needs no c_b + t ≤ 1.
 //!
@@ -84,7 +85,7 @@ use beyond::inside::Inside;
 use beyond::notches::Notches;
 use serde::{Deserialize, Serialize};
 
-/// What is done about input angles under 90°, which the paper's theorems exclude.
+/// How input angles under 90° are treated, which the paper's theorems exclude.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Corners {
@@ -95,12 +96,11 @@ pub enum Corners {
     Cut,
 }
 
-/// What is done about segments that the circles of their two ends cover between them while meeting low, which Theorem 6.8
-/// silently excludes.
+/// How a segment is treated that the circles of its two ends cover while meeting low, which Theorem 6.8 silently excludes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeadOn {
-    /// Nothing: the paper to the letter.
+    /// They are left as they are: the paper to the letter.
     Leave,
     /// The two circles are made smaller, and a third is put between them.
     #[default]
@@ -115,13 +115,13 @@ pub struct Biting {
     pub rule: Rule,
     /// The order of bites. The paper leaves it open; the default is what `sweep` found best.
     pub order: Order,
-    /// What is done about input angles under 90°, which the paper excludes.
+    /// How input angles under 90° are treated, which the paper excludes.
     pub corners: Corners,
-    /// What is done about circles that cover a segment between them and meet low.
+    /// How two circles are treated that cover a segment between them and meet low.
     pub head_on: HeadOn,
 }
 
-/// The parameters that leave the paper without anything of ours.
+/// The parameters by which biting is the paper to the letter.
 pub const TO_THE_LETTER: &[(&str, &str)] = &[("corners", "bite"), ("head_on", "leave")];
 
 pub(super) const ENTRY: Entry = Entry {
@@ -156,7 +156,7 @@ pub(super) const ENTRY: Entry = Entry {
     make: from_parameters::<Biting>,
 };
 
-/// What biting leaves: well-spaced points that cover the domain, not yet triangulated.
+/// The result of biting: well-spaced points that cover the domain, not yet triangulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bitten {
     /// Centres of the biting circles in the order of bites: input vertices, boundary, interior.
@@ -203,7 +203,7 @@ impl Biting {
     }
 }
 
-/// What holds where biting bites with the spacing that it was given, and every circle: in plain cases, or to the letter.
+/// What holds if biting uses the spacing that it was given and every circle: in plain cases, or to the letter.
 const OF_WHOLE_BITES: [Claim; 8] = [
     Claim::PackingDisjoint,
     Claim::Coverage,

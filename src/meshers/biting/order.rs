@@ -1,6 +1,7 @@
 //! The order of bites: which front vertex comes next.
 //!
-//! The paper leaves it open ("a sharpest nose", §5.1) and every bound holds for all of them; quality is won here.
+//! The paper leaves it open ("a sharpest nose", §5.1), and every bound holds for every order; the order decides how good the
+//! mesh is beyond the bounds.
 
 use crate::meshers::biting::front::FrontVertex;
 use rand::{RngExt, SeedableRng};
@@ -28,7 +29,7 @@ pub enum Order {
     /// The front vertex with the largest biting circle, that is, the largest spacing.
     #[default]
     Largest,
-    /// Any, by seed.
+    /// In random order, by seed.
     Random,
 }
 
@@ -46,14 +47,14 @@ impl Order {
     ];
 }
 
-/// A front vertex in the queue: its slot in the front, and the serial number that tells whether it still stands there.
+/// A front vertex in the queue: its slot in the front, and the serial number that shows whether it is still there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Ticket {
     pub serial: u32,
     pub slot: u32,
 }
 
-/// Front vertices waiting to be bitten. Vertices bitten away by others stay until their turn and are then passed over.
+/// Front vertices waiting to be bitten. Vertices bitten away by others stay until their turn and are then skipped.
 pub(super) enum Queue {
     Fifo(VecDeque<Ticket>),
     Lifo(Vec<Ticket>),
@@ -71,8 +72,8 @@ impl Queue {
         }
     }
 
-    /// Adds a front vertex and returns its rank, 0 where the order has none; `size` gives the
-    /// spacing there, asked for only where it ranks.
+    /// Adds a front vertex and returns its rank, 0 if the order has none; `size` returns the spacing there, and is called only if
+    /// the order ranks by it.
     pub fn push(&mut self, ticket: Ticket, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
         match self {
             Self::Fifo(queue) => queue.push_back(ticket),
@@ -98,11 +99,11 @@ impl Queue {
     }
 }
 
-/// Ranks are whole numbers of these.
+/// The unit of ranks, which are whole numbers.
 pub(super) const RANK_STEP: f64 = 1.0 / (1 << 30) as f64;
 
-/// The smaller, the earlier. Ranks are rounded to 2⁻³⁰, so that where spacing is uniform rounding noise does not decide
-/// and vertices of equal rank are bitten first come, first bitten.
+/// The smaller, the earlier. Ranks are rounded to 2⁻³⁰, so that rounding noise does not decide where the spacing is uniform, and
+/// vertices of equal rank are bitten in the order in which they came.
 fn rank(order: Order, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
     let value = match order {
         Order::Sharpest => vertex.cosine_at_front(),

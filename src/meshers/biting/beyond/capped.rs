@@ -108,7 +108,7 @@ mod tests {
     use super::*;
     use crate::spacing::Uniform;
 
-    /// The least of a cap's values over many of its points, the slow way.
+    /// The least of a cap's values over many of its points, by the slow way.
     fn slow(cap: &Cap, x: DVec2, t: f64) -> f64 {
         let values = (0..=10_000).map(|k| {
             let y = cap.length * f64::from(k) / 10_000.0;

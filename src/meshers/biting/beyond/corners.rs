@@ -15,10 +15,11 @@
 //! makes the corner triangle Delaunay: no vertex of the rest sees its base under more than 180° − θ. It comes back by itself.
 //!
 //! # Circles that meet low
-//! Lemmas 6.3 and 6.4 bound from below how high above a segment the circles of neighbouring centres meet, but for the
+//! Lemmas 6.3 and 6.4 bound from below how high above a segment the circles of neighbouring centres meet, except for the
 //! two ends of a segment that their circles cover between them. Where those meet lower than (9), both are
-//! held to half of what is between them, so that step 4 puts a circle in the middle. With that the angle bound needs no
-//! c_b + t ≤ 1 any more.
+//! held to half of the distance between them, so that step 4 puts a circle in the middle. With that the angle bound no longer
+//! needs c_b + t ≤ 1.
+//!
 //! By the rule of the later point they cover a segment between them only where c_b f exceeds half its length in the middle.
 //! It is held down there: only beside cuts, where f ≤ lfs.
 
@@ -63,7 +64,7 @@ pub(in crate::meshers::biting) struct Cuts {
     sides: Vec<[bool; 2]>,
     /// How many vertices are cut off.
     pub count: usize,
-    /// How many segments get a circle between their ends' circles that would else cover them, meeting low.
+    /// How many segments get a circle between those of their ends, which would otherwise cover them and meet low.
     pub parted: usize,
     /// How many angles had to be divided to less than the smallest angle of their vertex.
     pub narrowed: usize,
@@ -78,13 +79,13 @@ fn is_small(wedge: &Wedge) -> bool {
     wedge.angle.to_degrees() < 90.0 - RIGHT_ANGLE_DEG
 }
 
-/// What is being decided: distances and parted segments, made to fit one another round by round.
+/// The decisions in the making: distances and parted segments, made to fit one another round by round.
 struct Plan<'a> {
     domain: &'a Domain,
     sizing: Sizing<'a>,
     c_b: f64,
     rule: Rule,
-    /// With what s grows away from caps.
+    /// How fast s grows away from caps.
     t: f64,
     /// The fans of vertices to be cut off, by vertex, for distance 1.
     fans: Vec<(usize, Fan)>,
@@ -108,7 +109,7 @@ impl Cuts {
         }
     }
 
-    /// What `biting` says is to be cut off and kept apart, and the spacing for the rest; declined where coordinates
+    /// What is cut off and kept apart by the parameters of `biting`, and the spacing for the rest; declined if coordinates
     /// cannot resolve a cut.
     pub fn new<'a>(
         biting: &Biting,
@@ -190,8 +191,8 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// How far from `v` its segments can be cut: as far as features not incident to it, the nearest of which is so far away, and
-    /// the spacing leave room for, that the corner triangles be as large as the triangles beside them.
+    /// How far from `v` its segments can be cut: so that the corner triangles are as large as the triangles beside them, as far as
+    /// the spacing and the nearest feature not incident to `v`, at the distance given, leave room for that.
     fn room(&self, nearest: f64, v: usize, fan: &Fan) -> Result<f64, MeshError> {
         let domain = self.domain;
         let lengths = domain.wedges(v).iter().map(|wedge| domain.away(wedge.from, v).1);
@@ -265,7 +266,7 @@ impl<'a> Plan<'a> {
         [segment.a, segment.b].map(|v| self.domain.vertices()[v] + self.domain.away(s, v).0 * self.distances[v])
     }
 
-    /// Makes cuts smaller whose circles are held below what their edges need; says whether there were none.
+    /// Makes cuts smaller whose circles are held below what their edges need; returns whether there were none.
     fn shrink(&mut self, capped: &Sizing) -> Result<bool, MeshError> {
         let mut is_settled = true;
         for (v, fan) in &self.fans {
@@ -289,7 +290,7 @@ impl<'a> Plan<'a> {
         Ok(is_settled)
     }
 
-    /// Marks segments that the circles of their two ends cover between them, meeting low; says whether there were none.
+    /// Marks segments that the circles of their two ends cover between them, meeting low; returns whether there were none.
     fn part(&mut self, capped: &Sizing) -> Result<bool, MeshError> {
         let mut is_settled = true;
         for s in (0..self.parted.len()).filter(|&s| !self.parted[s]).collect::<Vec<_>>() {
@@ -350,7 +351,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// How far it is from `v` to the nearest feature not incident to it.
+/// The distance from `v` to the nearest feature not incident to it.
 fn nearest_apart(features: &SegmentIndex, domain: &Domain, v: usize) -> f64 {
     let incident = |s: usize| {
         let segment = domain.segments().get(s);

@@ -5,17 +5,17 @@
 //! F(w) = √(away² + w²) − share · g(w) is negative. With g t-Lipschitz, the slope of F is within t of w / √(away² + w²). So
 //! from w₀ = t away / √(1 − t²) on, F rises, and up to −w₀ it falls: one crossing on either side at most, found between two
 //! points of different sign. In between F may wiggle as g does; there its slope is at most 2t, and an interval whose two ends
-//! are farther from 0 than that can bridge has no crossing. All others are halved some times, and then F is taken to turn
-//! round once at most, so that an extremum that only touches 0 does not cost as many steps as it has digits.
+//! are farther from 0 than that can bridge has no crossing. All others are halved a few times; then F is assumed to turn at most
+//! once in each, so that an extremum that only touches 0 does not cost as many steps as it has digits.
 
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::EATEN;
 use crate::meshers::MeshError;
 use crate::meshers::sizing::Sizing;
 
-/// How often the stretch where F may wiggle is halved, before F is taken to turn round once at most in each part.
+/// How often the stretch where F may wiggle is halved before F is assumed to turn at most once in each part.
 const HALVINGS: usize = 6;
-/// Steps to where it turns round: 0.618⁴⁸ is 1e-10.
+/// Steps to the turning point: 0.618⁴⁸ is 1e-10.
 const STEPS_TO_EXTREMUM: usize = 48;
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
 /// Most steps to a crossing that is known to be one. Every third halves the interval.
@@ -31,9 +31,9 @@ pub(in crate::meshers::biting) struct PassingLine<'a> {
     pub direction: DVec2,
     /// How far the point is from the line.
     pub away: f64,
-    /// By how much g is taken smaller.
+    /// The factor by which g is reduced.
     pub share: f64,
-    /// About what g is here, to begin with.
+    /// An estimate of g here, to begin with.
     pub guess: f64,
 }
 
@@ -44,7 +44,7 @@ pub(in crate::meshers::biting) struct Crossing {
     pub at: f64,
     /// g there.
     pub radius: f64,
-    /// Whether what is eaten is left in the line's direction.
+    /// Whether the line leaves what is eaten there, in its direction.
     pub rises: bool,
 }
 
@@ -57,7 +57,7 @@ struct Sample {
 }
 
 impl PassingLine<'_> {
-    /// All crossings in [from, to] by their order along the line.
+    /// All crossings in [from, to], in their order along the line.
     pub fn crossings(&self, [from, to]: [f64; 2]) -> Result<Vec<Crossing>, MeshError> {
         let mut found = Vec::new();
         if from >= to {
@@ -86,7 +86,7 @@ impl PassingLine<'_> {
         Ok(found)
     }
 
-    /// Where what is eaten at `from` is first left in [from, to]: `from` itself if it is not eaten, none if all is.
+    /// Where the line first leaves what is eaten in [from, to]: `from` itself if it is not eaten, none if everything is.
     pub fn exit(&self, [from, to]: [f64; 2]) -> Result<Option<f64>, MeshError> {
         if self.sample(from)?.excess >= 0.0 {
             return Ok(Some(from));

@@ -1,9 +1,9 @@
-//! The edges around a vertex that is cut off: between neighbouring segments, or more than one where those are far apart.
+//! The edges around a vertex that is cut off: one between neighbouring segments, or several if these are far apart.
 //!
 //! # Idea
 //! Circles at the ends of a cut edge must overlap above it and not hold each other, so that edges which share an end
 //! differ in length by a factor of 1.3 to 1.5 at most. An angle wider than that beside a narrow one is divided, with
-//! parts that grow away from the narrow one. No part need be smaller than the smallest angle at the vertex, but for angles
+//! parts that grow away from the narrow one. No part need be smaller than the smallest angle at the vertex, except for angles
 //! between about 1.5 and 2 times a neighbour: these are halved, and counted.
 
 use crate::domain::{Domain, Wedge};
@@ -13,7 +13,7 @@ use crate::theory::Rule;
 use crate::theory::least_meeting_height;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
-/// Room for what f loses to rounding when two edges share an end.
+/// Room for what rounding takes from f when two edges share an end.
 const ROOM: f64 = 1.01;
 
 /// How fast parts grow away from a narrow angle: by this share of t, and with this t at most.
@@ -23,13 +23,13 @@ const MOST_T: f64 = 0.25;
 /// The largest part of an angle of 90° or more.
 const WIDEST_PART: f64 = FRAC_PI_3;
 
-/// Most parts by which an angle is divided more than that.
+/// Most parts that an angle is divided into beyond that.
 const MOST_PARTS: i32 = 16;
 
-/// Most rounds of dividing further where neighbours differ too much.
+/// Most rounds of dividing further because neighbours differ too much.
 const ROUNDS: usize = 64;
 
-/// Steps to an angle when parts of equal weight are laid out in it.
+/// Steps per angle when parts of equal weight are laid out in it.
 const STEPS: usize = 256;
 
 /// A cut edge, for a cut at distance 1 from the origin.
@@ -95,7 +95,7 @@ pub(in crate::meshers::biting) struct Fan {
 }
 
 impl Fan {
-    /// Of vertex `v`, for a spacing that grows with `t`.
+    /// The fan of vertex `v`, for a spacing that grows with `t`.
     pub fn new(domain: &Domain, v: usize, t: f64, rule: Rule) -> Self {
         let mut fan = Self::default();
         let wedges = domain.wedges(v);
@@ -178,7 +178,7 @@ fn edge(angle: f64) -> Edge {
     }
 }
 
-/// The fewest equal parts of an angle that edges fit for, where it need not be divided for its neighbours.
+/// The fewest equal parts of an angle for which edges fit, if it need not be divided for its neighbours.
 fn fewest_parts(angle: f64, t: f64, rule: Rule) -> f64 {
     let is_flat = angle >= FRAC_PI_2;
     let fits = |count: f64| {
@@ -206,7 +206,7 @@ struct Size {
     growth: f64,
 }
 
-/// What each wedge may have for parts, growing away from the narrow ones. Growth goes on through wedges outside, since
+/// The largest parts that each wedge may have, growing away from the narrow ones. Growth goes on through wedges outside, since
 /// circles grow no faster across them.
 fn sizes(wedges: &[Wedge], [growth, t]: [f64; 2], rule: Rule) -> Vec<Size> {
     let most = |wedge: &Wedge| match wedge.angle {

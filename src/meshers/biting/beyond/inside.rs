@@ -1,8 +1,8 @@
-//! Biting where distances are measured inside the domain, as [`lfs:geodesic`](crate::spacing::GeodesicLfs) has them.
+//! Biting with distances that are measured inside the domain, as for [`lfs:geodesic`](crate::spacing::GeodesicLfs).
 //!
 //! # Idea
-//! A circle B(x, s), s = c_b f(x), bites what it *reaches*: R(x, s), the connected part of B(x, s) ∩ Ω that holds x. What it holds
-//! of another arm of the domain is left to the circles there, however much larger or smaller they are.
+//! A circle B(x, s), s = c_b f(x), bites what it *reaches*: R(x, s), the connected part of B(x, s) ∩ Ω that holds x. Parts of
+//! another arm of the domain inside it are left to the circles there, however much larger or smaller they are.
 //!
 //! # Theorem
 //! Let f be α-Lipschitz in d, the length of shortest ways inside Ω, let f ≤ lfs_Ω, c_b ≤ 1 and t = α c_b ≤ √2 − 1, and let no
@@ -12,8 +12,8 @@
 //! in Ω; a circle covers what its centre sees.
 //!
 //! # Proof
-//! For x and y that see each other d(x, y) = ‖x − y‖, and the paper's arguments about them stay as they are. So it is to be
-//! shown that its arguments need no other pairs.
+//! For x and y that see each other d(x, y) = ‖x − y‖, and the paper's arguments about them stay as they are. It remains to
+//! show that its arguments need no other pairs.
 //!
 //! *1. A point that is reached, but not seen, is held by another circle that sees it.* As s ≤ lfs_Ω(x), all features that
 //! R(x, s) meets are incident to one another, so that it meets at most one vertex. Let z in R(x, s) be hidden from x. The
@@ -48,9 +48,10 @@
 //! The search for circles nearby ([`crate::geometry::near`]) relies on radii being similar. Those of two circles that a point is
 //! seen by are, as in 4; others need not be found, by 1.
 //!
-//! # What is not had
-//! The rule of the later point ([`crate::meshers::biting::beyond::rule`]): it follows lines across the outside, where f is not defined. And t above
-//! √2 − 1, where 1 fails: by its numbers, for t = 1/2 and a = 2/3, z may be 0.745 s from v while s(v) = 0.667 s.
+//! # What is not covered
+//! The rule of the later point ([`crate::meshers::biting::beyond::rule`]): it follows lines across the outside, where f is
+//! not defined. And t above √2 − 1, where 1 fails: by its numbers, for t = 1/2 and a = 2/3, z may be 0.745 s from v while
+//! s(v) = 0.667 s.
 
 use crate::delaunay::{Part, Reach};
 use crate::domain::Domain;
@@ -68,7 +69,7 @@ pub(in crate::meshers::biting) struct Inside {
 }
 
 impl Inside {
-    /// If distances of `spacing` are measured inside the domain; declined where biting is not proved to work.
+    /// Some if distances of `spacing` are measured inside the domain; declined if biting is not proved to work.
     pub fn new(biting: &Biting, domain: &Domain, spacing: &dyn Spacing, t: f64) -> Result<Option<Self>, MeshError> {
         if !spacing.is_geodesic() {
             return Ok(None);
@@ -92,7 +93,7 @@ impl Inside {
         }))
     }
 
-    /// How far it is from an input vertex to the nearest feature not incident to it.
+    /// The distance from an input vertex to the nearest feature not incident to it.
     pub fn nearest_apart(&self, vertex: DVec2) -> f64 {
         self.reach.smallest_apart(vertex)
     }

@@ -1,4 +1,4 @@
-//! What is not the paper's: small angles cut off, notches, circles that would meet low, distances inside the domain, and
+//! What is not in the paper: small angles cut off, notches, circles that would meet low, distances inside the domain, and
 //! the rule of the later point.
 
 pub(super) mod capped;

@@ -2,7 +2,7 @@
 //!
 //! # Idea
 //! A notch is an angle under 90° between two segments that opens to the outside. A circle centred on one side of it, or
-//! behind that, reaches across it and holds points beyond the other side. The paper's proofs take such a point for
+//! behind that side, reaches across it and holds points beyond the other side. The paper's proofs count such a point as
 //! covered, but no triangle joins it to that centre, and segments bitten from across a notch are left with pieces far too
 //! long for their own circles. So a circle here covers only points that its centre sees past every notch.
 //!
@@ -32,12 +32,12 @@ pub(in crate::meshers::biting) struct Notches {
     notches: Vec<Notch>,
     /// Their segments: of notch k the ones at 2k and 2k + 1.
     index: SegmentIndex,
-    /// A point that far off a side lies on it: centres on segments are rounded.
+    /// A point at most this far from a side counts as on it: centres on segments are rounded.
     slack: f64,
 }
 
 impl Notches {
-    /// Of a domain.
+    /// The notches of a domain.
     pub fn new(domain: &Domain) -> Self {
         let mut notches = Vec::new();
         for (v, &vertex) in domain.vertices().iter().enumerate() {
@@ -69,7 +69,7 @@ impl Notches {
         is_near
     }
 
-    /// Whether a notch stands between the points `x` and `y`.
+    /// Whether a notch lies between the points `x` and `y`.
     pub fn part(&self, x: DVec2, y: DVec2) -> bool {
         let mut parted = false;
         self.index.within(x, x.distance(y) + self.slack, |side, _| {

@@ -5,15 +5,15 @@
 //! point ([`Rule::Later`]) it eats all y that it would be too near for, { y : ‖x − y‖ < g(y) }: along a ray from x, the
 //! distance less g rises, so that is star-shaped, lies between B(x, g(x) / (1 + t)) and B(x, g(x) / (1 − t)), and is a circle
 //! where f is constant. The front is where the distance to the nearest point is g; its vertices are the y that have two
-//! nearest points, ‖y − x₁‖ = ‖y − x₂‖ = g(y): on edges of the Voronoi diagram. So for a pair of points that part of their
-//! bisector is looked at which no third point is nearer to, mostly nothing at all, and [`PassingLine`] finds where it leaves
-//! what is eaten. A front vertex y is eaten by every point nearer than g(y).
+//! nearest points, ‖y − x₁‖ = ‖y − x₂‖ = g(y): on edges of the Voronoi diagram. So the search for a pair of points is on that part
+//! of their bisector to which no third point is nearer, which is mostly empty, and [`PassingLine`] finds where it leaves what
+//! is eaten. A front vertex y is eaten by every point nearer than g(y).
 //!
 //! # What is known and what is new
 //! Mitchell, Rand, Ebeida and Bajaj compare rules for random samplings of domains without a boundary. The paper's rule is
 //! their *prior-disks*, the rule of the later point their *current-disks*. With L for t they have sin θ ≥ (1 − 2L) / 2 for the
 //! first and sin θ ≥ (1 − L) / 2 for the second, so the bound of the first subset below is theirs. New here are the boundary
-//! (the second subset, edge protection, corners of 90° and more, for any t < 1), the front of a bite that is no circle,
+//! (the second subset, edge protection, corners of 90° and more, for any t < 1), the front of a bite that is not a circle,
 //! the constants of nn and β, and the hypotheses under which all of it holds.
 //!
 //! # The smallest angle
@@ -72,7 +72,7 @@ use crate::meshers::biting::beyond::crossing::PassingLine;
 use crate::meshers::biting::front::Front;
 use crate::theory::Rule;
 
-/// Radii and distances are rounded: by so much more is looked at.
+/// Radii and distances are rounded: searches reach farther by this factor.
 const ROOM: f64 = 1.0 + 1e-6;
 
 /// A point where the border of what a point has eaten meets that of another.
@@ -160,7 +160,7 @@ impl Front<'_> {
             crossings.extend(line.crossings(range)?);
         }
         let meeting = |crossing: &crate::meshers::biting::beyond::crossing::Crossing| {
-            // The very point of the paper's rule where f is constant.
+            // Exactly the point of the paper's rule if f is constant.
             let circle = Near {
                 radius: crossing.radius,
                 ..*other
@@ -178,7 +178,7 @@ impl Front<'_> {
     }
 
     /// The part of the bisector of a disc's centre and a near one that may hold front vertices: in the box of the domain, not
-    /// too far away, and no third centre nearer, but for rounding.
+    /// too far away, and with no third centre nearer, up to rounding.
     fn bisector(&self, disc: Disc, near: &[Near], index: usize) -> Option<Bisector> {
         let other = &near[index];
         let reach = ROOM * disc.radius.min(other.radius) / (1.0 - self.radii.t());
