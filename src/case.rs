@@ -1,4 +1,4 @@
-//! This domain, this f, this c_b: what a mesher meshes, and what its mesh is judged against.
+//! This domain, this f, this c_b: what a mesher meshes, and by what its mesh is judged.
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
@@ -22,18 +22,18 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone)]
 pub struct Case {
-    /// Where.
+    /// The domain.
     pub domain: Arc<Domain>,
     /// f as a mesher sees it.
     pub spacing: ControlSpacing,
     /// Biting constant: the target edge length at x is c_b f(x).
     pub c_b: f64,
-    /// ∫ dA / f², where it is known: without it the judge has no bounds on the number of vertices.
+    /// ∫ dA / f², if it is known: without it the judge has no bounds on the number of vertices.
     pub integral: Option<Integral>,
 }
 
 impl Case {
-    /// Of the spacing that a SPEC names ([`spacing::Spec`]), capped by lfs and limited to α = t / c_b.
+    /// A case with the spacing that a SPEC names ([`spacing::Spec`]), capped by lfs and limited to α = t / c_b.
     ///
     /// # Errors
     /// [`SpacingError`].
@@ -41,7 +41,7 @@ impl Case {
         Self::with(domain, spec, c_b, &Options::new(t, c_b))
     }
 
-    /// The same with other [`Options`] of making the spacing.
+    /// The same with other [`Options`] for the spacing.
     ///
     /// # Errors
     /// [`SpacingError`].
@@ -51,10 +51,10 @@ impl Case {
         Ok(Self::of(domain, spacing, c_b))
     }
 
-    /// Of a size function in code, capped by lfs and limited to α = t / c_b as a SPEC would be.
+    /// A case with a size function in code, capped by lfs and limited to α = t / c_b as a SPEC is.
     ///
     /// # Errors
-    /// [`SpacingError`]: where `function` is not positive, or nothing bounds its slope.
+    /// [`SpacingError`], if `function` is not positive or nothing bounds its slope.
     pub fn from_spacing(
         domain: impl Into<Arc<Domain>>,
         function: impl Spacing + 'static,
@@ -66,7 +66,7 @@ impl Case {
         Ok(Self::of(domain, spacing, c_b))
     }
 
-    /// Of a spacing that is as a mesher shall see it.
+    /// A case with a spacing as it is, neither capped nor limited.
     pub fn of(domain: impl Into<Arc<Domain>>, spacing: ControlSpacing, c_b: f64) -> Self {
         Self {
             domain: domain.into(),
@@ -93,7 +93,7 @@ impl Case {
         self.c_b * self.spacing.function.lipschitz()
     }
 
-    /// What is asked of a mesher: this c_b, seed 0, one thread, no budget.
+    /// The request to a mesher: this c_b, seed 0, one thread, no budget.
     pub fn request(&self) -> Request {
         Request::new(self.c_b)
     }
@@ -118,17 +118,17 @@ impl Case {
         mesher.mesh(&self.domain, &*self.spacing.function, &request, trace)
     }
 
-    /// Judges a mesh from anywhere: its structure must hold, the paper's bounds are measured.
+    /// Judges a mesh from anywhere: its structure must hold; the paper's bounds are measured.
     pub fn judge(&self, mesh: &Mesh) -> (Statistics, Certificate) {
         self.held_to(mesh, Rule::Earlier, &[])
     }
 
-    /// Judges a mesh by what `mesher`, which made it, guarantees here.
+    /// Judges a mesh that `mesher` made, by what that guarantees here.
     pub fn judge_of(&self, mesh: &Mesh, mesher: &dyn Mesher) -> (Statistics, Certificate) {
         self.held_to(mesh, mesher.rule(), &self.guaranteed(mesher))
     }
 
-    /// The claims that `mesher` guarantees here, the paper's where their hypotheses hold.
+    /// The claims that `mesher` guarantees here; those of the paper count only where their hypotheses hold.
     pub fn guaranteed(&self, mesher: &dyn Mesher) -> Vec<Claim> {
         let is_plain = quality::hypotheses(&self.domain, &self.bounds(mesher.rule(), &[]), 0).is_plain();
         let guarantees = mesher.guarantees().into_iter();

@@ -1,7 +1,8 @@
-//! The paper's formulas, hypotheses and claims, each once: meshers and quality both read them here, and neither the other.
+//! The paper's formulas, hypotheses and claims, each once: meshers and quality both take them from here, and import nothing from
+//! one another.
 //!
-//! [`Rule`] says who bites whom, [`Promises`] has every bound for a rule and t, [`Hypotheses`] what the bounds need, and
-//! [`Claim`] the checks of the certificate by name. For [`Rule::Earlier`] the numbers are the paper's; for [`Rule::Later`] the
+//! [`Rule`] is who bites whom, [`Promises`] has every bound for a rule and t, [`Hypotheses`] are what the bounds need, and
+//! [`Claim`] names the checks of the certificate. For [`Rule::Earlier`] the numbers are the paper's; for [`Rule::Later`] the
 //! docs of [`crate::meshers::biting`] derive them.
 
 use crate::geometry::tolerance::RIGHT_ANGLE_DEG;
@@ -36,7 +37,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// What of two things, that of the point bitten first and that of the other, the distance of the two is held against.
+    /// The one of two values that counts for the distance of two points: that of the point bitten first, or that of the other.
     pub fn of<T>(self, earlier: T, later: T) -> T {
         match self {
             Self::Earlier => earlier,
@@ -72,7 +73,7 @@ pub struct Promises {
 }
 
 impl Promises {
-    /// sin θ ≥ 1/2 − t by Theorem 6.8; (1 − t) / 2 by the rule of the later point. 0 where that is negative.
+    /// sin θ ≥ 1/2 − t by Theorem 6.8; (1 − t) / 2 by the rule of the later point. 0 if that is negative.
     pub fn least_sine(self) -> f64 {
         self.rule.of(0.5 - self.t, 0.5 - 0.5 * self.t).max(0.0)
     }
@@ -119,7 +120,7 @@ impl Promises {
         [fewest, most]
     }
 
-    /// Without t < 1 there is nothing above.
+    /// The bound from above needs t < 1.
     fn upper(self, bound: f64) -> f64 {
         if self.t < 1.0 { bound } else { f64::INFINITY }
     }
@@ -203,7 +204,7 @@ impl Claim {
         }
     }
 
-    /// Where the paper says so; empty for the structural claims.
+    /// The place in the paper; empty for the structural claims.
     pub fn lemma(self) -> &'static str {
         match self {
             Self::PackingDisjoint => "Lemma 5.4",
@@ -230,7 +231,7 @@ impl fmt::Display for Claim {
 /// A claim that a method guarantees, where the claim's hypotheses hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Guarantee {
-    /// Which.
+    /// The claim.
     pub claim: Claim,
     /// Whether only in plain cases: no angle under 90° between neighbouring segments, inside or outside, and, by the paper's
     /// rule, c_b + t ≤ 1. Elsewhere the method meshes with a smaller spacing than it was given, or without some circles.
@@ -260,13 +261,13 @@ pub struct Hypotheses {
     pub rule: Rule,
     /// Whether f ≤ lfs.
     pub lfs_cap: bool,
-    /// Smallest angle between neighbouring segments on any side, inside or out, degrees; 360 if none.
+    /// Smallest angle between neighbouring segments, inside or outside, degrees; 360 if none.
     pub smallest_segment_angle_deg: f64,
     /// Input segments bitten at their two vertices only, whose circles meet lower than (9).
     pub low_head_on: usize,
     /// Whether every vertex with an angle under 90° inside has no other angle inside.
     pub single_corners: bool,
-    /// Whether f is Lipschitz in distances inside the domain, and lfs is meant so.
+    /// Whether f is Lipschitz, and lfs measured, by distances inside the domain.
     pub is_geodesic: bool,
     /// Whether a vertex with an angle under 90° inside, which has no circle where corners are cut off, may hide points: whether it
     /// has an angle under 180° outside.
@@ -301,7 +302,7 @@ impl Hypotheses {
         self.vertices_apart() && self.t <= BOUNDARY_T && self.has_no_small_angle()
     }
 
-    /// What Theorem 6.8 needs, stated or not; by the rule of the later point, any t < 1 will do.
+    /// What Theorem 6.8 needs, stated or not; by the rule of the later point any t < 1 is enough.
     fn of_theorem_6_8(&self) -> bool {
         match self.rule {
             Rule::Earlier => self.of_section_6() && self.low_head_on == 0,

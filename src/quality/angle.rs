@@ -30,7 +30,7 @@ pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
 
 /// `corner-angles`: angles of triangles at vertices with an input angle under 60°, over the smallest input angle there.
 pub fn corner_check(subject: &Subject, sizes: &Sizes) -> Check {
-    // Coordinates are rounded, which the angle opposite to a short edge feels.
+    // Coordinates are rounded, which changes the angle opposite to a short edge.
     let ulp = SAME_VERTEX_ULPS * f64::EPSILON * subject.largest_coordinate();
     let tally = over_triangles(subject, |tally, t| {
         if let Some(input) = subject.input_angle_deg(t) {
@@ -53,7 +53,7 @@ fn smallest_angle(corners: [DVec2; 3]) -> f64 {
     a.min(b).min(c)
 }
 
-/// Shows every triangle to a tally.
+/// Passes every triangle to a tally.
 fn over_triangles(subject: &Subject, see: impl Fn(&mut Tally, usize) + Sync) -> Tally {
     let parts = parallel::map_ranges(subject.mesh.triangles.len(), |range| {
         let mut tally = Tally::new(Worst::Smallest);

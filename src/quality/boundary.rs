@@ -1,6 +1,6 @@
 //! Finds the domain in a mesh by coordinates alone: input vertices among mesh vertices, segments as chains of edges.
 //!
-//! What a mesher says about its pieces is not looked at, and a mesh may come from anywhere, its vertices in any order.
+//! What a mesher says about its pieces is not used: a mesh may come from anywhere, with its vertices in any order.
 
 use crate::domain::Domain;
 use crate::geometry::DVec2;
@@ -10,13 +10,13 @@ use crate::mesh::{Adjacency, Lists, Mesh};
 /// Marks an edge that lies on no segment.
 pub const NO_SEGMENT: u32 = u32::MAX;
 
-/// Where the domain is in the mesh.
+/// The domain as it is found in the mesh.
 pub struct Boundary {
     /// The mesh vertex at each input vertex.
     pub vertex: Vec<Option<u32>>,
     /// For each edge of the mesh, by its index in [`Adjacency::edges`], the segment it lies on, or [`NO_SEGMENT`].
     pub segment: Vec<u32>,
-    /// Segments that are no chain of mesh edges, each with how far the chain got.
+    /// Segments that are not chains of mesh edges, each with how far the chain got.
     pub lost: Vec<(usize, DVec2)>,
 }
 
@@ -69,7 +69,7 @@ impl Boundary {
     }
 }
 
-/// How far apart coordinates of one vertex may be.
+/// How far apart the coordinates of one vertex may be in domain and mesh.
 pub fn same_vertex_distance(domain: &Domain, mesh: &Mesh) -> f64 {
     let largest = |points: &[DVec2]| {
         points
@@ -93,7 +93,7 @@ fn find_vertices(vertices: &[DVec2], points: &[DVec2], ulp: f64) -> Vec<Option<u
     });
     let place = |k: &u32| points[*k as usize];
     let find = |v: &DVec2| {
-        // Almost always the very coordinates are there; only otherwise are all of about that x looked at.
+        // Almost always exactly these coordinates are there; only otherwise are all vertices of about that x compared.
         let exact = order.partition_point(|k| place(k).x < v.x || (place(k).x == v.x && place(k).y < v.y));
         if let Some(k) = order.get(exact).filter(|k| place(k) == *v) {
             return Some(*k);

@@ -1,8 +1,8 @@
 //! Packing circles are disjoint (Lemma 5.4) and biting circles cover the domain (Theorem 5.5), without sampling.
 //!
 //! A union of closed discs covers the domain if and only if no arc of one of their circles lies in the domain but in no other
-//! disc, as long as the boundary is covered. Only circles through triangles that are not plainly covered are asked: a mesh
-//! much finer than f, as around a very small angle, would have every circle meet every other.
+//! disc, as long as the boundary is covered. Only circles through triangles that are not plainly covered are examined: in a mesh
+//! much finer than f, as around a very small angle, every circle would meet every other.
 
 use super::boundary::NO_SEGMENT;
 use super::discs::{Disc, DiscTree};
@@ -37,7 +37,7 @@ pub fn packing_check(sizes: &Sizes) -> Check {
     sizes.check(Tally::all(Worst::Smallest, parts), Claim::PackingDisjoint, 1.0)
 }
 
-/// `coverage` of a mesh; `is_whole` where its triangles are known to make up the domain.
+/// `coverage` of a mesh; `is_whole` if its triangles are known to make up the domain.
 pub fn coverage_check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
     match sizes.bounds.rule {
         Rule::Earlier => circles_check(subject, sizes, is_whole),
@@ -88,7 +88,7 @@ fn open_triangles(subject: &Subject, sizes: &Sizes) -> DiscTree {
             .fold(f64::INFINITY, f64::min);
         // Every point of a triangle is within its circumradius of a corner.
         let is_plain = shape::circumcentre(corners).distance(corners[0]) <= smallest;
-        // Where circles count only for what they reach, a disc that holds a part need not cover it.
+        // If circles count only for what they reach, a disc that holds a part need not cover it.
         let is_covered = || sizes.reached.is_none() && is_covered(corners, &sizes.circles, QUARTERINGS);
         let is_open = !is_plain && !is_covered();
         is_open.then(|| disc_around(corners))
@@ -159,10 +159,10 @@ fn gap_on(disc: &Disc, arcs: &mut Vec<(f64, f64)>, domain: &Domain, sizes: &Size
     }
 }
 
-/// Most broken pairs that are counted for a circle.
+/// Most broken pairs counted for one circle.
 const MOST_BROKEN: usize = 256;
 
-/// Notes distance over sum of packing radii, once for each pair, and says whether they overlap.
+/// Notes distance over sum of packing radii, once for each pair, and returns whether they overlap.
 fn see_pair(packing: &mut Tally, disc: &Disc, other: &Disc, c_p: f64, sizes: &Sizes) -> bool {
     let [f, g] = [disc.id, other.id].map(|k| sizes.at_vertex[k as usize]);
     let radii = c_p * (f + g);
@@ -202,11 +202,11 @@ fn covered_arc(disc: &Disc, other: &Disc) -> Arc {
     Arc::Part(from, from + 2.0 * half)
 }
 
-/// The longest arc of the circle that is in no covered part but in the domain, in radians; 0 if there is none.
+/// The longest arc of the circle that is in the domain but in no covered part, in radians; 0 if there is none.
 fn largest_gap(disc: &Disc, arcs: &mut [(f64, f64)], domain: &Domain) -> f64 {
     let in_domain = |angle: f64| domain.contains(disc.centre + disc.radius * DVec2::from_angle(angle));
     arcs.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
-    // What reaches over the end of the turn covers the beginning.
+    // A part that reaches over the end of the turn covers its beginning.
     let Some(mut reach) = arcs.iter().map(|arc| arc.1 - TAU).reduce(f64::max) else {
         // A circle that meets no disc cannot cross the boundary either where that is covered.
         return if in_domain(0.0) { TAU } else { 0.0 };
@@ -228,7 +228,7 @@ fn along_segments(subject: &Subject, sizes: &Sizes) -> Tally {
     let pieces = edges
         .filter(|(_, segment)| **segment != NO_SEGMENT)
         .map(|(edge, _)| edge.ends.map(|k| points[k as usize]));
-    // A segment that is no chain of edges is looked at whole.
+    // A segment that is not a chain of edges is examined as a whole.
     let lost = subject.boundary.lost.iter().map(|(s, _)| subject.domain.ends(*s));
     let pieces: Vec<[DVec2; 2]> = pieces.chain(lost).collect();
     let parts = parallel::map_ranges(pieces.len(), |range| {
@@ -242,8 +242,8 @@ fn along_segments(subject: &Subject, sizes: &Sizes) -> Tally {
     Tally::all(Worst::Largest, parts)
 }
 
-/// The longest uncovered stretch of a segment (of equals the first), over the segment's length, and its middle. Of discs, by
-/// number, those cover a point that count there.
+/// The longest uncovered stretch of a segment (of equal ones the first), over the segment's length, and its middle. A disc covers
+/// a point only if it counts there.
 fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree, counts: impl Fn(u32, DVec2) -> bool) -> (f64, DVec2) {
     let (middle, direction) = (a.midpoint(b), b - a);
     let length = direction.length();

@@ -1,16 +1,16 @@
 //! Near-queries among discs of any radii: a static tree of bounding boxes.
 //!
-//! The judge's own, apart from the grid that biting stands on: it assumes nothing about how radii vary.
+//! The judge has its own index, apart from the grid that biting uses: this one assumes nothing about how radii vary.
 
 use crate::geometry::{DVec2, Rect};
 use std::ops::ControlFlow;
 
-/// Discs a leaf.
+/// Discs per leaf.
 const LEAF: usize = 8;
 /// Deepest tree: halves down to a leaf, so 2^48 discs would fit.
 const DEPTH: usize = 48;
 
-/// A disc and the index it was given under.
+/// A disc and its index in the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
     /// Centre.
@@ -32,14 +32,14 @@ struct Node {
     range: [u32; 2],
 }
 
-/// Discs, findable by place.
+/// Discs in a tree of boxes.
 pub struct DiscTree {
     nodes: Vec<Node>,
     discs: Vec<Disc>,
 }
 
 impl DiscTree {
-    /// Of discs in any order. O(n log n).
+    /// Builds the tree of discs given in any order. O(n log n).
     pub fn new(discs: impl Iterator<Item = (DVec2, f64)>) -> Self {
         let discs: Vec<Disc> = discs
             .zip(0..)
@@ -55,7 +55,7 @@ impl DiscTree {
         tree
     }
 
-    /// All discs, those near each other mostly next to each other.
+    /// All discs; those near each other are mostly next to each other.
     pub fn discs(&self) -> &[Disc] {
         &self.discs
     }
@@ -118,7 +118,7 @@ impl DiscTree {
         }
     }
 
-    /// Distance from `x` to the second closest centre; infinite where there are fewer than two.
+    /// Distance from `x` to the second closest centre; infinite if there are fewer than two.
     pub fn second_nearest(&self, x: DVec2) -> f64 {
         let (mut first, mut second) = (f64::INFINITY, f64::INFINITY);
         let lower = |node: &Node| away_squared(node.bounds, x);
@@ -134,7 +134,7 @@ impl DiscTree {
         second.sqrt()
     }
 
-    /// The least distance from `x` to a centre less `share` of the disc's radius; infinite where there are no discs.
+    /// The least distance from `x` to a centre less `share` of the disc's radius; infinite if there are no discs.
     pub fn nearest_rim(&self, x: DVec2, share: f64) -> f64 {
         let mut least = f64::INFINITY;
         let lower = |node: &Node| away_squared(node.bounds, x).sqrt() - share * node.radius;
@@ -145,7 +145,7 @@ impl DiscTree {
         least
     }
 
-    /// Whether one of the discs holds the whole disc around `x`, as far as rounding can tell: `false` may be wrong, `true` not.
+    /// Whether one of the discs holds the whole disc around `x`. Because of rounding, `false` may be wrong; `true` is not.
     pub fn one_holds(&self, x: DVec2, radius: f64) -> bool {
         let mut is_held = false;
         let lower = |node: &Node| away_squared(node.bounds, x).sqrt() - node.radius;
@@ -156,8 +156,8 @@ impl DiscTree {
         is_held
     }
 
-    /// Shows discs to `look`, by boxes of small `lower` bounds first, but for boxes whose lower bound is not under the
-    /// limit that `look` returned last.
+    /// Passes discs to `look`, those in boxes of small `lower` bounds first, and leaves out boxes whose lower bound is not
+    /// below the limit that `look` returned last.
     fn nearest_first(&self, lower: impl Fn(&Node) -> f64, mut look: impl FnMut(&Disc) -> f64) {
         let mut limit = f64::INFINITY;
         let mut stack = [(0u32, f64::NEG_INFINITY); DEPTH];

@@ -1,16 +1,16 @@
 //! How large the gaps between packing circles are: the β of Definition 4.1.
 //!
 //! With packing circles B(p, c_p f(p)) around the mesh vertices p, c_p = c_b / (2 + t), a point q has the gap
-//! `gap(q) = min over p of (‖q − p‖ / c_p − f(p)) / f(q)`, and the circles are a β-packing for no β under the largest gap
-//! over the domain (and for none above, where they also are disjoint: the check `packing-disjoint`). Theorem 5.5 says
-//! that biting reaches β = (1 + t) / (1 − t).
+//! `gap(q) = min over p of (‖q − p‖ / c_p − f(p)) / f(q)`, and the circles are a β-packing if and only if they are
+//! disjoint (the check `packing-disjoint`) and β is at least the largest gap over the domain. Theorem 5.5 says that biting reaches
+//! β = (1 + t) / (1 − t).
 //!
 //! # How it is found
 //! For constant f the gap is largest at circumcentres, or on the boundary in the middle between two vertices. For graded f
 //! the maxima move away from there, by a share of a circle. So the gap is measured at all circumcentres inside the
 //! domain and in the middle of all pieces of segments, and from the largest of these points climbed with shrinking
-//! steps. All points looked at lie in the domain, so the result is never above the true maximum; it may be below.
-//! Where distances are measured inside the domain, circles across the outside count here too, which makes it smaller still.
+//! steps. All these points lie in the domain, so the result is never above the true maximum; it may be below.
+//! If distances are measured inside the domain, circles across the outside count here too, which makes it smaller still.
 
 use super::boundary::NO_SEGMENT;
 use super::parallel;
@@ -19,16 +19,16 @@ use crate::geometry::DVec2;
 use crate::geometry::tolerance::CERTIFICATE;
 use std::f64::consts::TAU;
 
-/// From how many of the largest points the search climbs.
+/// The number of largest points from which the search climbs.
 const CLIMBED: usize = 32;
 /// Directions tried with each step.
 const DIRECTIONS: usize = 8;
-/// How often the step is halved: from a quarter of a packing circle to some thousandth of it.
+/// How often the step is halved: from a quarter of a packing circle to about a thousandth of it.
 const HALVINGS: usize = 8;
 /// Most steps of one length.
 const STEPS: usize = 8;
 
-/// The largest gap found; absent without a spacing or vertices.
+/// The largest gap found; absent without a spacing or without vertices.
 pub fn beta(subject: &Subject) -> Option<f64> {
     let sizes = subject.sizes.as_ref()?;
     let gaps = Gaps::new(subject, sizes);
@@ -114,7 +114,7 @@ impl<'a> Gaps<'a> {
             .1
     }
 
-    /// Goes uphill in these directions while points are `within`, with steps halved where none leads further up.
+    /// Goes uphill in these directions while points are `within`, and halves the steps when none leads further up.
     fn ascend(
         &self,
         (mut at, mut best): (DVec2, f64),

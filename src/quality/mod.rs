@@ -29,8 +29,8 @@
 //! | `vertices-lower` | follows from 5.5 | vertices ≥ (1 − t)² I / (π c_b²) | t < 1 |
 //! | `vertices-upper` | follows from 5.4 | vertices, by share of packing circle, ≤ 4 (1 + t)² I / (π c_b²) | f ≤ lfs, c_b ≤ 1 |
 //!
-//! These are for the rule of the paper. By that of the later point ([`Rule::Later`]), which the judge is told of, the same
-//! claims say:
+//! These are for the rule of the paper. By that of the later point ([`Rule::Later`]), if that is the judge's, the same claims
+//! say:
 //! | claim | says | needs |
 //! |---|---|---|
 //! | `coverage` | every point z of Ω has ‖x − z‖ ≤ c_b f(z) for some x | t < 1 |
@@ -43,12 +43,12 @@
 //! `packing-disjoint` and `vertices-upper` are as they were, and `boundary-height` is only measured.
 //!
 //! # Distances inside the domain
-//! Where the spacing is Lipschitz in those ([`Spacing::is_geodesic`]), f ≤ lfs means [`crate::spacing::GeodesicLfs`], and circles and
-//! vertices count only for what they reach ([`crate::delaunay::Reach`], found from the domain alone): `packing-disjoint` leaves
-//! out pairs of vertices of which the circle of the one with the larger spacing holds the other without reaching it; for
-//! `coverage` a point is in a circle that reaches it; nn is the smallest radius with which a disc reaches another vertex, or two. Besides
-//! what the table says, all bounds need t ≤ √2 − 1, the rule of the paper, and no vertex with an angle under 90° inside and one
-//! under 180° outside. The docs of biting have the proof.
+//! If the spacing is Lipschitz in these ([`Spacing::is_geodesic`]), f ≤ lfs means [`crate::spacing::GeodesicLfs`], and
+//! circles and vertices count only for what they reach ([`crate::delaunay::Reach`], found from the domain alone):
+//! `packing-disjoint` leaves out pairs of vertices of which the circle of the one with the larger spacing holds the other
+//! without reaching it; for `coverage` a point is in a circle that reaches it; nn is the smallest radius with which a disc
+//! reaches another vertex, or two. Besides what the table says, all bounds need t ≤ √2 − 1, the rule of the paper, and no
+//! vertex with an angle under 90° inside and one under 180° outside. The docs of biting have the proof.
 //!
 //! `low_head_on` counts the input segments that the circles of their two input vertices cover between them, meeting
 //! lower than (9): a case that the paper excludes without saying so, possible only where c_b + t > 1 (`protection.rs`

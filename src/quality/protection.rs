@@ -1,9 +1,9 @@
 //! How high above the boundary the circles of neighbouring boundary vertices meet (§6.2), which Theorem 6.8 rests on.
 //!
-//! Lemmas 6.3 and 6.4 bound that height where one of the two centres was put there by step 4: on the other's circle,
-//! or in the middle of a gap. Nothing bounds it where step 4 had nothing to do, since the circles of the two input
-//! vertices of a segment already cover it between them: they may overlap by as little as one likes, and the front vertex
-//! above their overlap then makes a flat triangle with them. The paper excludes that case without saying so. It cannot
+//! Lemmas 6.3 and 6.4 bound that height if step 4 put one of the two centres there: on the other's circle, or in the middle of
+//! a gap. Nothing bounds it if step 4 had nothing to do, because the circles of the two input vertices of a segment already
+//! cover it between them: they may overlap as little as one likes, and the front vertex above their overlap then makes a
+//! flat triangle with them. The paper excludes that case without saying so. It cannot
 //! occur where c_b + t ≤ 1: with m the middle of a segment of length L, f(m) ≤ lfs(m) ≤ L/2, so the two radii are at
 //! most c_b (L/2 + α L/2) each and add up to at most (c_b + t) L.
 
@@ -27,7 +27,7 @@ pub struct Heights {
 }
 
 impl Heights {
-    /// Of all mesh edges on input segments.
+    /// Those of all mesh edges on input segments.
     pub fn measure(
         domain: &Domain,
         mesh: &Mesh,

@@ -1,5 +1,5 @@
-//! What circles and vertices count for where distances are measured inside the domain: only for what they reach there
-//! ([`Reach`]), which the judge finds from the domain alone.
+//! With distances inside the domain, circles and vertices count only for what they reach there ([`Reach`]), which the judge finds
+//! from the domain alone.
 
 use super::discs::{Disc, DiscTree};
 use super::parallel;
@@ -9,20 +9,20 @@ use crate::domain::Domain;
 use crate::geometry::DVec2;
 use std::ops::ControlFlow;
 
-/// By how much the radius is raised in which vertices are looked for.
+/// The factor by which the radius of the search for vertices is raised.
 const WIDER: f64 = 1.5;
 
 /// What each of the biting circles reaches.
 pub struct Reached {
-    /// None where the domain cannot be triangulated: then nothing is reached, and no claim holds.
+    /// None if the domain cannot be triangulated: then nothing is reached, and no claim holds.
     reach: Option<Reach>,
     parts: Vec<Option<Part>>,
-    /// No point of the domain is farther from another.
+    /// The largest distance that two points of the domain can have.
     farthest: f64,
 }
 
 impl Reached {
-    /// Of these circles.
+    /// What these circles reach.
     pub fn new(domain: &Domain, circles: &DiscTree) -> Self {
         let reach = Reach::new(domain).ok();
         let discs = circles.discs();

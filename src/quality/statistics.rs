@@ -3,7 +3,7 @@
 use super::subject::Subject;
 use super::{Angles, Percentiles, Range, Seams, Statistics, gaps, parallel, shape};
 
-/// Bins of the histogram, one a degree: a smallest angle is at most 60°.
+/// Bins of the histogram, one per degree: a smallest angle is at most 60°.
 const BINS: usize = 60;
 
 /// All statistics of a mesh; angles of an empty mesh are 0.

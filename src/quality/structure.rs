@@ -23,7 +23,7 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// Of a mesh.
+    /// Checks a mesh.
     pub fn of(subject: &Subject) -> Self {
         Self {
             positive_orientation: positive_orientation(subject),
@@ -48,7 +48,7 @@ impl Structure {
         needed.iter().all(|check| check.holds)
     }
 
-    /// In the order of the table in [`super`].
+    /// The checks in the order of the table in [`super`].
     pub fn into_checks(self) -> Vec<Check> {
         vec![
             self.positive_orientation,
@@ -104,7 +104,7 @@ fn area_beside_segments(subject: &Subject) -> f64 {
     same_vertex_distance(domain, subject.mesh) * perimeter / domain.area()
 }
 
-/// A check that counts places that should not be there: the worst is how many.
+/// A check that counts places that should not be there; their number is the worst value.
 fn none_of(claim: Claim, places: impl Iterator<Item = DVec2>) -> Check {
     let mut tally = Tally::new(Worst::Largest);
     for place in places {

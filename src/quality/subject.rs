@@ -23,7 +23,7 @@ pub struct Subject<'a> {
     acute: Vec<f64>,
     /// How many triangles touch such a vertex.
     pub excused: usize,
-    /// The spacing and what it says about the mesh, if there is one.
+    /// The spacing and what is derived from it, if there is one.
     pub sizes: Option<Sizes<'a>>,
 }
 
@@ -35,11 +35,11 @@ pub struct Sizes<'a> {
     pub at_vertex: Vec<f64>,
     /// f at the midpoint of each edge.
     pub at_midpoint: Vec<f64>,
-    /// Each triangle's circumcentre with f there, where it lies in the domain.
+    /// Each triangle's circumcentre with f there, if it lies in the domain.
     pub circumcentres: Vec<Option<(DVec2, f64)>>,
     /// The biting circles, enlarged by [`CERTIFICATE`].
     pub circles: DiscTree,
-    /// What circles reach inside the domain, where distances are measured there.
+    /// What circles reach inside the domain, if distances are measured there.
     pub reached: Option<Reached>,
     /// Distance from each mesh vertex to the nearest other one.
     pub nn: Vec<f64>,
@@ -48,7 +48,7 @@ pub struct Sizes<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// Of any mesh.
+    /// Prepares any mesh.
     pub fn new(domain: &'a Domain, mesh: &'a Mesh, bounds: Option<&Bounds<'a>>) -> Self {
         let adjacency = mesh.adjacency();
         let boundary = Boundary::find(domain, mesh, &adjacency);
@@ -141,7 +141,7 @@ impl<'a> Sizes<'a> {
         }
     }
 
-    /// Distance from `x` to the second nearest mesh vertex; where distances are measured inside the domain, the radius with which
+    /// Distance from `x` to the second nearest mesh vertex; if distances are measured inside the domain, the radius with which
     /// a disc reaches two.
     pub fn second_nearest(&self, x: DVec2) -> f64 {
         second_nearest(&self.circles, self.reached.as_ref(), x)
@@ -170,7 +170,7 @@ impl<'a> Sizes<'a> {
         self.bounds.guaranteed.contains(&claim) && self.hypotheses.imply(claim)
     }
 
-    /// The check of a claim about the spacing by what a tally saw.
+    /// The check of a claim about the spacing, from a tally.
     pub fn check(&self, tally: Tally, claim: Claim, bound: f64) -> Check {
         tally.check(claim, self.applies(claim), bound)
     }
