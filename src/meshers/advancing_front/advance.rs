@@ -5,11 +5,11 @@ use super::front::{Front, NONE, OPEN, Triangle};
 use super::ideal_point::Base;
 use crate::meshers::MeshError;
 
-/// Nodes up to so many edges away along the front are near neighbours of the base: connecting to them is no seam.
+/// Nodes up to this number of edges away along the front are near neighbours of the base: connecting to them is not a seam.
 const NEIGHBOURS: usize = 4;
 
 impl Front<'_> {
-    /// Makes the triangle of the base and an apex: sides that were front are so no more, the others are now and returned.
+    /// Makes the triangle of the base and an apex: sides that were front leave it, the others join it and are returned.
     pub fn advance(&mut self, base: &Base, apex: Apex) -> Result<[Option<u32>; 2], MeshError> {
         let [a, b] = base.ends;
         let node = match apex {
@@ -139,8 +139,8 @@ impl Front<'_> {
         }
     }
 
-    /// Whether the triangle joins parts of the front that were far from each other along it: its apex is no near
-    /// neighbour of the base, or it goes on where such a triangle left off.
+    /// Whether the triangle joins parts of the front that were far from each other along it: its apex is not a near
+    /// neighbour of the base, or it continues such a triangle.
     fn joins_fronts(&self, base: &Base, apex: Apex, closed: [Option<u32>; 2]) -> bool {
         let Apex::Node(node) = apex else { return false };
         let bridges = |edge: u32| self.edge(edge).bridges;

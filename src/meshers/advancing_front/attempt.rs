@@ -6,7 +6,7 @@
 //! 4. the elements around it deleted and made anew ([`Front::open_up`]), a bounded number of times at one place;
 //! 5. the widest search, for a triangle of any angle that is more than a rounding error.
 //!
-//! What then is still front is closed by force. A face is asked for no more than half of the angles that the front has at its
+//! What is still front then is closed by force. No more is asked of a face than half of the angles that the front has at its
 //! ends: within a narrow input angle no triangle is better.
 //!
 //! [`AdvancingFront::accept`]: super::AdvancingFront::accept
@@ -17,10 +17,10 @@ use super::front::Front;
 use super::ideal_point::Base;
 use super::queue::Ticket;
 
-/// So many attempts at a face; one that failed them all is left to be closed by force.
+/// The number of attempts at a face; one that failed them all is left to be closed by force.
 pub(super) const ATTEMPTS: u8 = 4;
 
-/// The search radius grows by this factor, once and once more, when it is widened.
+/// The search radius grows by this factor when it is widened, which happens at most twice.
 const WIDER: f64 = 4.0;
 
 /// The last attempt takes what ranks this share of [`AdvancingFront::accept`]: by default one degree, since a front that
@@ -44,7 +44,7 @@ impl Picked {
 }
 
 impl Front<'_> {
-    /// The next face of the front that is to be a base; none where all are done or were tried in vain.
+    /// The next face of the front that is to be a base; none if all are done or were tried in vain.
     pub fn pick_face(&mut self) -> Option<Picked> {
         loop {
             let Some(ticket) = self.queue.pop() else {
@@ -64,7 +64,7 @@ impl Front<'_> {
         }
     }
 
-    /// The apex for a face, by the attempt it is at; none where that fails.
+    /// The apex for a face, by the attempt it is at; none if that fails.
     pub fn find_apex(&mut self, picked: &Picked) -> Option<Apex> {
         let (base, accept) = (&picked.base, self.method.accept);
         let reach = self.method.search;

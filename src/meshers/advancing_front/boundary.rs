@@ -5,8 +5,8 @@ use crate::geometry::DVec2;
 use crate::mesh::Piece;
 use crate::meshers::MeshError;
 
-/// s is sampled along a segment in steps of this share of it. s being t-Lipschitz, the trapezoids between are good to
-/// some thousandths of a piece.
+/// s is sampled along a segment in steps of this share of it. s being t-Lipschitz, the trapezoids between are accurate
+/// to some thousandths of a piece.
 const STEP: f64 = 0.25;
 
 /// Makes the nodes on the boundary and the front through them, and returns the pieces. Inner segments are front on both

@@ -18,7 +18,7 @@ pub(super) enum Apex {
     New(DVec2, f64),
 }
 
-/// A candidate that ranks so many degrees is taken without looking at other places for a new node.
+/// A candidate that ranks this number of degrees is taken without trying other places for a new node.
 const GOOD: f64 = 50.0;
 
 /// A new node ranks this share lower than it would as a node of the front: of two good triangles, the one without a
@@ -47,7 +47,7 @@ pub(super) struct Near {
 }
 
 impl Near {
-    /// Whether `from` has a point on the side that is not meshed, as far as its edges tell: across a thin wall it has not.
+    /// Whether, by the edges at `from`, a point lies on the side that is not meshed: across a thin wall it does not.
     fn sees(&self, point: DVec2) -> bool {
         self.from == self.to || left_of(self.p, self.q, point) || left_of(self.before, self.p, point)
     }
@@ -144,7 +144,7 @@ impl Front<'_> {
         near
     }
 
-    /// The nodes of the front within `radius` of the ideal point, ranked by what the triangle alone tells.
+    /// The nodes of the front within `radius` of the ideal point, ranked by the triangle alone.
     fn ranked(&self, base: &Base, near: &[Near], radius: f64) -> Vec<Candidate> {
         let candidates = near.iter().filter_map(|edge| {
             let is_end = base.ends.contains(&edge.from);
@@ -200,7 +200,7 @@ impl Front<'_> {
     }
 
     /// What the triangle with its apex at `at` (a front node, if `node` is one) ranks by its angles and the wedges it
-    /// leaves; none where it does not fit into the wedges.
+    /// leaves; none if it does not fit into the wedges.
     fn rank(&self, base: &Base, node: Option<u32>, at: DVec2) -> Option<f64> {
         let (along, to_a, to_b) = (base.b - base.a, base.a - at, base.b - at);
         let angles = [turn(along, -to_a), turn(-to_b, -along), turn(to_a, to_b)];
@@ -276,10 +276,10 @@ const SHORT: f64 = 1.0;
 /// How far towards the middle of a triangle counts as inside of it: far beyond rounding, and near to its side.
 const INWARD: f64 = 1e-6;
 
-/// How far around a cleft the front is looked at, as a share of the base.
+/// How far around a cleft the front is examined, as a share of the base.
 const CLEFT_ROOM: f64 = 0.25;
 
-/// The smallest angle by which a wedge can be closed at best, in degrees; none where nothing is left of it.
+/// The smallest angle with which a wedge can be closed at best, in degrees; none if nothing is left of it.
 fn wedge_rank(wedge: f64) -> Option<f64> {
     let degrees = wedge.to_degrees();
     if degrees <= 0.0 {
@@ -293,7 +293,7 @@ fn wedge_rank(wedge: f64) -> Option<f64> {
     }
 }
 
-/// A triangle to be held against the front.
+/// A triangle to be tested against the front.
 struct Trial<'a> {
     base: &'a Base,
     node: Option<u32>,
@@ -312,7 +312,7 @@ impl Trial<'_> {
         self.base.ends.contains(&node) || self.node == Some(node)
     }
 
-    /// How much room a front edge leaves, 1 being that of an equilateral triangle; none where it is in the way.
+    /// How much room a front edge leaves, 1 being that of an equilateral triangle; none if it is in the way.
     fn against(&self, edge: &Near) -> Option<f64> {
         let corners = [self.is_corner(edge.from), self.is_corner(edge.to)];
         if corners == [true, true] {

@@ -21,7 +21,7 @@ pub(super) const NONE: u32 = u32::MAX;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub at: DVec2,
-    /// s there, so that it is evaluated once a node.
+    /// s there, so that it is evaluated once per node.
     pub size: f64,
     /// First of the front edges that leave it, and of those that enter it.
     first_out: u32,
@@ -43,7 +43,7 @@ pub(super) struct Edge {
     pub right: u32,
     /// The domain's face on the left.
     pub face: u32,
-    /// Tells the edge from others that stood in its slot before; [`NONE`] once it is gone.
+    /// Distinguishes the edge from earlier ones in its slot; [`NONE`] once it is gone.
     pub serial: u32,
     /// In which row it was made: 0 on the boundary.
     pub row: u32,
@@ -88,7 +88,7 @@ pub(super) struct Front<'a> {
     pub nodes: Vec<Node>,
     pub edges: Vec<Edge>,
     free: Vec<u32>,
-    /// How many edges there are.
+    /// The number of edges.
     pub length: usize,
     pub grid: SegmentGrid,
     pub queue: Queue,

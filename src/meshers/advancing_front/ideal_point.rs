@@ -15,7 +15,7 @@ pub(super) struct Base {
     /// The angles of what is not meshed at a and at b, radians.
     pub wedges: [f64; 2],
     pub length: f64,
-    /// δ₁: how long the two new sides should be, as s at the ends of the base tells.
+    /// δ₁: how long the two new sides should be, by s at the ends of the base.
     pub side: f64,
     /// The ideal point for that.
     pub ideal: DVec2,
@@ -93,7 +93,7 @@ impl Front<'_> {
     }
 
     /// A new node at a place over the base, with s there: the mean of s at the base and at the apex replaces
-    /// s at the base alone. Where there is no s, as may be outside the domain, it is NaN.
+    /// s at the base alone. NaN if there is no s, as may be outside the domain.
     pub fn new_apex(&self, base: &Base, place: Place) -> (DVec2, f64) {
         let first = base.apex_at(base.side, place);
         let Ok(size) = self.sizing.at(first) else {
@@ -109,5 +109,5 @@ impl Front<'_> {
     }
 }
 
-/// δ₁ is not corrected for a change by less than this share: it would cost an evaluation of f and not show.
+/// δ₁ is not corrected for a change by less than this share: it would cost an evaluation of f and change nothing visible.
 const SAME_SIDE: f64 = 0.01;

@@ -5,7 +5,7 @@ use crate::geometry::predicates::{in_circle, orient2d};
 use crate::geometry::{DVec2, turn};
 use crate::mesh::{Adjacency, Lists, Mesh, NONE};
 
-/// Swaps edges until all but the pieces are Delaunay, where the method is to.
+/// Swaps edges until all but the pieces are Delaunay, if that is asked for.
 pub(super) fn swap(method: &AdvancingFront, mut mesh: Mesh) -> Mesh {
     if method.swap {
         swap_to_delaunay(&mut mesh);
@@ -13,7 +13,7 @@ pub(super) fn swap(method: &AdvancingFront, mut mesh: Mesh) -> Mesh {
     mesh
 }
 
-/// Sweeps over the nodes within the domain, where the method is to; between sweeps edges are swapped if it does that too.
+/// Smooths the nodes inside the domain, if that is asked for; between sweeps edges are swapped if that is asked for too.
 pub(super) fn smooth(method: &AdvancingFront, mut mesh: Mesh) -> Mesh {
     if method.smooth == 0 {
         return mesh;

@@ -8,34 +8,34 @@
 //! # Steps
 //! 1. [`boundary::boundary`] cuts the segments into pieces on which ∫ 1/s is about 1;
 //! 2. [`attempt`] picks a face (`pick_face`): clefts, then the shortest, then those that could not be closed;
-//! 3. [`ideal_point`] tells where the apex should be: at distance δ₁ = s from both ends, clamped to \[0.55, 2\] × base;
+//! 3. [`ideal_point`] computes where the apex should be: at distance δ₁ = s from both ends, clamped to \[0.55, 2\] × base;
 //! 4. [`candidates`] ranks the nodes of the front near that point against it and points below it on the bisector, and
 //!    takes the best one whose triangle passes the exact test against the front nearby;
 //! 5. [`advance`] makes the triangle and moves the front;
 //! 6. a face that cannot be closed well waits, then searches wider, then has the elements around it deleted and made anew
 //!    ([`open_up`]);
-//! 7. what then is left is closed by force ([`close`]);
+//! 7. what is left then is closed by force ([`close`]);
 //! 8. [`rows`] does all this a layer at a time, with paving's row choice, closure check and seaming of clefts;
-//! 9. [`improve`] swaps edges and smooths, where asked to.
+//! 9. [`improve`] swaps edges and smooths, if asked to.
 //!
 //! # Guarantee
-//! None of the paper's bounds, and no Delaunay triangulation. The structural checks hold: each triangle is held against the
+//! None of the paper's bounds, and no Delaunay triangulation. The structural checks hold: each triangle is tested against the
 //! front by exact predicates before it is made, and a valid one always exists among the nodes of the front, since the
 //! constrained triangulation of what is left has one over each base. It always ends: a face is tried
 //! [`attempt::ATTEMPTS`] times, new nodes keep their distance from the front, and no place is opened up more than twice.
 //!
 //! # Cost
-//! O(log n) a triangle for the queue and O(1) for the rest, with one or two evaluations of s a node and none elsewhere.
+//! O(log n) per triangle for the queue and O(1) for the rest, with one or two evaluations of s per node and none elsewhere.
 //!
 //! # Deviations (and why)
 //! * The inventors rank front nodes by their distance from the ideal point. Here a candidate ranks by the smallest angle it
 //!   leads to, in its triangle and in the wedges it leaves beside it: the same near the ideal point, better where fronts meet.
 //! * Lengths that agree to 8 bits count as equal, first come first served, so that on uniform s the front moves in rows and
-//!   not as rounding has it.
+//!   not at the whim of rounding.
 //! * Over a base much shorter than s a new node may stand beside the bisector ([`ideal_point::Place::OTHERS`]), so that a
 //!   row gets fewer nodes than it has bases: what paving calls row adjustment. Without it rows keep their number of nodes
 //!   away from a fine boundary until s is twice the base, and then break up.
-//! * The literature stops where a front cannot close. Here the last resort is the constrained Delaunay triangulation of what
+//! * The literature stops when a front cannot close. Here the last resort is the constrained Delaunay triangulation of what
 //!   is left, counted as `closed_by_force`.
 //! * Paving makes quadrilaterals; its controls are kept, its smoothing of rows is not: see [`AdvancingFront::smooth`].
 //! * [`Mesh::forced_pieces`] is 0: the method never asks for a Delaunay triangulation that pieces could be missing from.
@@ -251,7 +251,7 @@ impl Mesher for AdvancingFront {
     }
 }
 
-/// Element by element, until the front is empty or nothing moves it any more.
+/// Element by element, until the front is empty or nothing moves it any further.
 fn advance_until_empty(front: &mut Front) -> Result<(), MeshError> {
     while let Some(face) = front.pick_face() {
         advance_face(front, &face)?;

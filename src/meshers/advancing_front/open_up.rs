@@ -1,4 +1,4 @@
-//! Opening up: where a face of the front cannot be closed well, the elements around it are deleted, and the front
+//! Opening up: if a face of the front cannot be closed well, the elements around it are deleted, and the front
 //! advances there again from elsewhere.
 
 use super::front::{Front, NONE, OPEN, Triangle};
@@ -8,7 +8,7 @@ use crate::geometry::{DVec2, Rect};
 /// Elements with a corner within this many δ₁ of the base's middle are deleted.
 const REACH: f64 = 1.5;
 
-/// So many times at most the front is opened up at one place.
+/// The most times that the front is opened up at one place.
 const TIMES: usize = 2;
 
 impl Front<'_> {
@@ -72,7 +72,7 @@ impl Front<'_> {
         found
     }
 
-    /// Deletes triangles: what was front at them is no more, what lies beyond them becomes front.
+    /// Deletes triangles: their edges on the front leave it, the edges behind them join it.
     fn delete(&mut self, doomed: &[u32]) {
         let mut nodes = Vec::new();
         let mut opened = Vec::new();
@@ -120,7 +120,7 @@ impl Front<'_> {
     }
 
     /// Queues a face again, as if it had not been tried: what it sees has changed. A node that no other edge touches is
-    /// no face.
+    /// not a face.
     pub fn requeue_untried(&mut self, edge: u32) {
         if self.edge(edge).next != edge {
             self.edges[edge as usize].attempts = 0;

@@ -20,7 +20,7 @@ pub(super) struct Ticket {
 const IS_BASE: u64 = 1 << 40;
 /// The attempt counts most.
 const ATTEMPT_SHIFT: u32 = 41;
-/// Lengths that agree to 8 bits of their mantissa are equal, so that rounding does not decide where all edges are.
+/// Lengths that agree to 8 bits of their mantissa are equal, so that rounding does not decide where all edges are alike.
 const LENGTH_SHIFT: u32 = 44;
 
 impl Ticket {
@@ -33,7 +33,7 @@ impl Ticket {
     }
 }
 
-/// The faces of the front that wait. Those that are gone stay until their turn and are then passed over.
+/// The faces of the front that wait. Those that are gone stay until their turn and are then skipped.
 pub(super) struct Queue {
     advance: Advance,
     heap: BinaryHeap<Reverse<Ticket>>,

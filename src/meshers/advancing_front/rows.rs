@@ -9,12 +9,12 @@ use crate::geometry::predicates::orient2d;
 use crate::geometry::{DVec2, Rect, turn};
 use crate::meshers::MeshError;
 
-/// Openings of at most so many edges are closed at once where that is good enough: six, as in paving.
+/// Openings of at most this number of edges are closed at once if that is good enough: six, as in paving.
 const CLOSURE: usize = 6;
 
 impl Front<'_> {
     /// Row choice: queues all of the front as the coming rows, loop by loop, the one of the shortest edges first, each from
-    /// its sharpest corner on. None where there is nothing to queue.
+    /// its sharpest corner on. None if there is nothing to queue.
     pub fn begin_row(&mut self) -> bool {
         if self.method.advance != Advance::Row {
             return false;
@@ -97,7 +97,7 @@ impl Front<'_> {
         (corners.len() > 3).then_some(corners)
     }
 
-    /// Whether a front node that is no corner lies within the box around the corners: then this is left to others.
+    /// Whether a front node other than the corners lies within the box around them: then this is left to other steps.
     fn is_occupied(&self, corners: &[u32], points: &[DVec2], edge: u32) -> bool {
         let (bounds, face) = (Rect::around(points.iter().copied()), self.edge(edge).face);
         let mut is_occupied = false;
@@ -128,7 +128,7 @@ impl Front<'_> {
 /// The triangulation of a small polygon whose smallest angle is largest.
 struct Plan {
     count: usize,
-    /// The smallest angle in degrees within the corners i..=j; negative where they cannot be triangulated.
+    /// The smallest angle in degrees within the corners i..=j; negative if they cannot be triangulated.
     angle: [[f64; CLOSURE]; CLOSURE],
     /// The apex over the base from corner j to corner i.
     apex: [[usize; CLOSURE]; CLOSURE],

@@ -14,23 +14,23 @@
 //! 4. [`Refinable::into_mesh`] carves outside and holes away. The triangulation is constrained Delaunay all along.
 //!
 //! # Guarantee
-//! Every triangle has the angle and the size asked for, but those counted: `left_at_acute_vertex` (the angle is the
+//! Every triangle has the angle and the size asked for, except those counted: `left_at_acute_vertex` (the angle is the
 //! input's, or to mend it would shorten the pieces at an acute vertex below [`pieces::SHELL_FLOOR`], and so on for ever),
 //! `left_by_rounding` (coordinates do not resolve the point), `left_by_floor` (edges would become shorter than
 //! [`pieces::FLOOR`] of what input and sizes ask for). The floors end the work on every domain and at every angle. In theory
 //! it ends without them up to 20.7° for circumcentres, diametral circles and input angles of at least 60°, and up to 25.7°
-//! (28.6° without good grading) for lenses; in practice up to 33° or so. Of the certificate: `constrained-delaunay`. The
+//! (28.6° without good grading) for lenses; in practice up to about 33°. Of the certificate: `constrained-delaunay`. The
 //! paper's bounds are measured only.
 //!
 //! # Cost
-//! O(1) a point in practice: a short walk, the cavity, and about six triangles tested; what s is at their corners mostly
-//! decides their size, so s is evaluated little more than once a point. Buckets keep the queue free of logarithms.
+//! O(1) per point in practice: a short walk, the cavity, and about six triangles tested. s at their corners mostly decides
+//! whether they are too large, so s is evaluated little more than once per point. Buckets keep the queue free of logarithms.
 //!
 //! # Deviations from the papers (and why)
 //! * Sizes: too large means by default an area over √3/4 s² at the centroid, as Triangle's users ask for ([`SizeRule`]).
 //! * Order: shortest edge first, as in Triangle 1.6, where Ruppert leaves it open; short edges breed shorter ones only where
 //!   longer ones have not been spoilt yet.
-//! * Lenses have Triangle's angle: a vertex encroaches where it sees a piece under more than 180° less twice the bound, which
+//! * Lenses have Triangle's angle: a vertex encroaches if it sees a piece under more than 180° less twice the bound, which
 //!   is Chew's lens at 30°. As Chew does, splitting then removes the free vertices in the diametral circle that see the piece.
 //! * Small input angles: pieces at a vertex of an acute angle are split at a distance from it that is a power of two, so that
 //!   two of them end at one distance and do not encroach upon each other (Ruppert's shells, as Shewchuk has them). Miller, Pav
@@ -72,7 +72,7 @@ use serde::{Deserialize, Serialize};
 pub enum Insertion {
     /// At its circumcentre (Ruppert, Chew).
     Circumcentre,
-    /// At its off-centre where that is nearer (Üngör): fewer points.
+    /// At its off-centre if that is nearer (Üngör): fewer points.
     #[default]
     OffCentre,
 }
@@ -82,7 +82,7 @@ pub enum Insertion {
 #[serde(rename_all = "kebab-case")]
 pub enum Encroachment {
     /// Inside the circle that has the piece as diameter (Ruppert): the mesh is Delaunay, not only constrained Delaunay,
-    /// but for what is left at acute vertices.
+    /// except for what is left at acute vertices.
     DiametralCircle,
     /// Inside the lens from which the piece is seen under at least 180° less twice the angle asked for (Chew's second):
     /// fewer points.

@@ -9,11 +9,11 @@ use crate::meshers::MeshError;
 use std::f64::consts::FRAC_PI_3;
 
 /// For an angle's sake no vertex comes nearer to another than this share of what input and sizes ask for there. The
-/// theories need shares of 1/30 or so where they prove anything.
+/// theories need shares of about 1/30 where they prove anything.
 pub(super) const FLOOR: f64 = 1.0 / 1024.0;
 
-/// For an angle's sake no piece at an acute vertex becomes shorter than this share of what the features and sizes round it
-/// ask for: the nearest feature that could want it shorter is that far away.
+/// For an angle's sake no piece at an acute vertex becomes shorter than this share of what the features and sizes around it
+/// ask for: the nearest feature that could require it to be shorter is that far away.
 pub(super) const SHELL_FLOOR: f64 = 1.0 / 4.0;
 
 /// Why a triangle or a piece is left as it is.
@@ -31,7 +31,7 @@ pub(super) enum Left {
 pub(super) struct Nearness {
     /// Squared cosine of the angle under which a piece is seen from the rim of its lens; 0 for the circle.
     cosine_squared: f64,
-    /// Whether free vertices in the diametral circle make way for a split, as Chew has it.
+    /// Whether free vertices in the diametral circle are removed for a split, as by Chew.
     pub clears: bool,
 }
 
@@ -58,7 +58,7 @@ pub(super) fn in_diametral_circle(ends: [DVec2; 2], x: DVec2) -> bool {
     (ends[0] - x).dot(ends[1] - x) < 0.0
 }
 
-/// Acute input angles and the concentric shells round them.
+/// Acute input angles and the concentric shells around them.
 pub(super) struct Shells {
     /// For each segment, the shortest piece that may be made for an angle's sake at its first and last vertex; none where
     /// that vertex has no acute angle beside the segment.

@@ -1,9 +1,9 @@
-//! Bad triangles, shortest edge first, in buckets as the classical codes have them: constant time a triangle.
+//! Bad triangles, shortest edge first, in buckets as in the classical codes: constant time per triangle.
 
 use super::triangles::Flaw;
 use std::collections::VecDeque;
 
-/// A triangle in the queue: its number, the corners that tell whether it still stands, and what is wrong.
+/// A triangle in the queue: its number, its corners, which show whether it is still there, and what is wrong with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Ticket {
     pub triangle: u32,
@@ -17,7 +17,7 @@ const BUCKETS: usize = 1 << 12;
 /// Tickets by shortest edge; first come, first served within a bucket.
 pub(super) struct Queue {
     buckets: Vec<VecDeque<Ticket>>,
-    /// One bit a bucket: whether it holds something.
+    /// One bit per bucket: whether it holds something.
     occupied: [u64; BUCKETS / 64],
 }
 

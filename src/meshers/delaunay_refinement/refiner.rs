@@ -12,7 +12,7 @@ use crate::meshers::{MeshError, Monitor, Request, Trace};
 use crate::spacing::Spacing;
 use std::collections::VecDeque;
 
-/// A piece to be split, with the ends that tell whether it still stands, and for what it is split.
+/// A piece to be split, with its ends, which show whether it is still there, and the reason of the split.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Encroached {
     pub piece: u32,
@@ -28,7 +28,7 @@ pub(super) struct Refiner<'a> {
     pub(super) nearness: Nearness,
     pub(super) shells: Shells,
     pub(super) monitor: Monitor,
-    /// Points closer than this cannot be told apart well enough.
+    /// Coordinates do not resolve points closer than this well enough.
     pub(super) resolution: f64,
     pub(super) encroached: VecDeque<Encroached>,
     pub(super) queue: Queue,
@@ -39,7 +39,7 @@ pub(super) struct Refiner<'a> {
     pub(super) sizes: Vec<f64>,
     /// At each vertex, how near another one may come for an angle's sake; it grows no faster than [`FLOOR`] with distance.
     pub(super) floors: Vec<f64>,
-    /// Pieces that rounding does not let be split.
+    /// Pieces that cannot be split because of rounding.
     pub(super) unsplittable: Vec<(u32, [u32; 2])>,
     pub(super) left: Vec<(Ticket, Left)>,
     pub(super) circumcentres: usize,
@@ -47,7 +47,7 @@ pub(super) struct Refiner<'a> {
     pub(super) removed: usize,
 }
 
-/// Twice the sine of half the smallest input angle at a vertex that opens into the domain, at most 1: so long is the edge
+/// Twice the sine of half the smallest input angle at a vertex that opens into the domain, at most 1: the length of the edge
 /// between two segments at distance 1.
 fn sharpness(domain: &Domain, vertex: usize) -> f64 {
     let inside = domain.wedges(vertex).iter().filter(|wedge| wedge.inside);
@@ -122,7 +122,7 @@ impl<'a> Refiner<'a> {
         (ends, ends.map(|vertex| self.triangulation.point(vertex)))
     }
 
-    /// Queues a piece where it is too long by itself, or the apex of a triangle beside it encroaches upon it.
+    /// Queues a piece if it is too long by itself, or if the apex of a triangle beside it encroaches upon it.
     pub(super) fn test_piece(&mut self, piece: u32) -> Result<(), MeshError> {
         let (ends, places) = self.piece_ends(piece);
         let flaw = if self.bounds.is_too_long(places)? {
@@ -166,7 +166,7 @@ impl<'a> Refiner<'a> {
         Ok(())
     }
 
-    /// Splits pieces until none is encroached upon but those that may not be split.
+    /// Splits pieces until none is encroached upon except those that may not be split.
     pub fn split_encroached(&mut self) -> Result<(), MeshError> {
         while let Some(Encroached { piece, ends, flaw }) = self.encroached.pop_front() {
             if self.piece_ends(piece).0 == ends && self.may_split(piece, flaw).is_ok() {
@@ -245,7 +245,7 @@ impl<'a> Refiner<'a> {
         })
     }
 
-    /// Notes what is known of the vertex made last.
+    /// Notes size and floor at the vertex made last.
     pub(super) fn add_vertex(&mut self, x: DVec2, floor: f64) -> Result<(), MeshError> {
         let size = self.bounds.size_at_vertex(x)?;
         self.sizes.push(size);

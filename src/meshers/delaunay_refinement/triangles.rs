@@ -24,7 +24,7 @@ pub(super) enum Flaw {
 /// A triangle measured: its shortest edge, which lies opposite to its smallest angle, and its longest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
-    /// Which of the edges ab, bc, ca is the shortest; the first of equals.
+    /// Which of the edges ab, bc, ca is the shortest; the first of equal ones.
     pub shortest: usize,
     /// Its length, squared.
     pub length_squared: f64,
@@ -59,7 +59,7 @@ impl Shape {
     }
 }
 
-/// The bounds that triangles are held to.
+/// The bounds that triangles must meet.
 pub(super) struct Bounds<'a> {
     rule: SizeRule,
     sizing: Sizing<'a>,
@@ -76,7 +76,7 @@ impl<'a> Bounds<'a> {
         }
     }
 
-    /// s at a vertex, kept to bound s near it; infinite where sizes do not matter.
+    /// s at a vertex, kept to bound s near it; infinite if sizes do not matter.
     pub fn size_at_vertex(&self, x: DVec2) -> Result<f64, MeshError> {
         match self.rule {
             SizeRule::None => Ok(f64::INFINITY),
@@ -107,7 +107,7 @@ impl<'a> Bounds<'a> {
     fn is_too_large(&self, corners: [DVec2; 3], sizes: [f64; 3], shape: &Shape) -> Result<bool, MeshError> {
         let [a, b, c] = corners;
         let centroid = (a + b + c) / 3.0;
-        // Where s is looked at, and the least s there that lets the triangle be.
+        // Where s is evaluated, and the least s there for which the triangle is small enough.
         let (place, least) = match self.rule {
             SizeRule::None => return Ok(false),
             SizeRule::Area => {
@@ -125,7 +125,7 @@ impl<'a> Bounds<'a> {
                 (centroid, radius * 3f64.sqrt())
             }
         };
-        // s is t-Lipschitz: what is known of it at the corners decides most triangles.
+        // s is t-Lipschitz: its values at the corners decide most triangles.
         let t = self.sizing.t();
         for (corner, size) in corners.into_iter().zip(sizes) {
             let change = t * corner.distance(place);
@@ -160,7 +160,7 @@ impl NewPoint {
         }
     }
 
-    /// The circumcentre; or, where that is nearer, the point on the bisector of the shortest edge from which the edge is
+    /// The circumcentre; or, if that is nearer, the point on the bisector of the shortest edge from which the edge is
     /// seen under a little more than the angle asked for.
     pub fn of(&self, corners: [DVec2; 3], shape: &Shape) -> DVec2 {
         let [p, q, r] = [0, 1, 2].map(|k| corners[(shape.shortest + k) % 3]);

@@ -6,7 +6,7 @@
 //! that do not meet Ω are dropped. Then every cell whose neighbour across a side has been split twice is split too.
 //!
 //! # Cost
-//! s is evaluated once a leaf, and not at all in cells that the bound known from above splits for sure.
+//! s is evaluated once per leaf, and not at all in cells that a bound from above is enough to split.
 
 use super::Field;
 use crate::geometry::{DVec2, Rect};
@@ -67,10 +67,10 @@ pub(super) struct Quadtree {
     depths: [u32; 2],
 }
 
-/// One leaf in so many is counted as a vertex to come: a vertex' circle of radius s meets fewer leaves of side over s/2.
+/// One leaf in this number counts as a vertex to come: a vertex' circle of radius s meets fewer leaves of side over s/2.
 const LEAVES_A_VERTEX: usize = 64;
 
-/// Clock and memory are looked at once in so many leaves.
+/// Clock and memory are checked once in this number of leaves.
 const LEAVES_BETWEEN_LOOKS: usize = 1 << 14;
 
 /// The balanced quadtree of the domain whose leaves have sides of at most [`QuadtreeMis::leaf_side`] · s.
@@ -104,7 +104,7 @@ struct Builder<'a, 'b> {
 }
 
 impl Builder<'_, '_> {
-    /// Makes `node` the tree of `cell`; `bounds` are bounds of s on it.
+    /// Makes `node` the tree of `cell`, on which `bounds` bound s.
     fn grow(&mut self, node: usize, cell: Cell, depth: u32, bounds: [f64; 2]) -> Result<(), MeshError> {
         let width = cell.rect.size().x;
         let [mut low, mut high] = bounds;

@@ -7,9 +7,9 @@
 //! unless something else is in the way.
 //!
 //! # In leaves
-//! As many points a side as the factor says, each in the middle of its square ([`Sampling::Regular`]) or anywhere in
-//! it ([`Sampling::Jittered`]). They are made when a leaf is worked on, and not at all where one circle covers the leaf:
-//! a mesh of 10⁶ triangles has some 10⁷ candidates, of which most are never looked at.
+//! The factor is the number of points per side, each in the middle of its square ([`Sampling::Regular`]) or anywhere in
+//! it ([`Sampling::Jittered`]). They are made when a leaf is worked on, and not at all if one circle covers the leaf:
+//! a mesh of 10⁶ triangles has about 10⁷ candidates, most of which are never examined.
 
 use super::balance::Leaf;
 use super::{Field, QuadtreeMis};

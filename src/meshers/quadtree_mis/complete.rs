@@ -1,12 +1,12 @@
-//! Goes on sampling where gaps remain until none does.
+//! Goes on sampling where gaps remain until none is left.
 //!
 //! # Idea
-//! A cell that one circle covers, or that does not meet the domain, is done. Of another, the centre is chosen if no
-//! circle covers it; if that does not cover the cell, its quarters are looked at, [`HALVINGS`] times. Most of the cells
+//! A cell that one circle covers, or that does not meet the domain, is done. Of any other, the centre is chosen if no
+//! circle covers it; if that does not cover the cell, its quarters are treated alike, [`HALVINGS`] times. Most of the cells
 //! that are left then are covered by several circles together. An uncovered region among them is bounded by arcs, since all
 //! segments are covered; its outer boundary has corners where two circles cross, because one circle alone can only bound
-//! it from within. So it is enough to look at crossings of circles in the cells that are left: where none is uncovered
-//! there is no gap, and where one is it is chosen.
+//! it from within. So it is enough to examine the crossings of circles in the cells that are left: if none is uncovered
+//! there is no gap, and if one is it is chosen.
 //!
 //! # Termination
 //! No point is chosen within a circle chosen before, so their packing circles are disjoint, and the domain has room for
@@ -20,10 +20,10 @@ use crate::geometry::near::{DiscGrid, Near, circle_intersections};
 use crate::geometry::{DVec2, Rect};
 use crate::meshers::MeshError;
 
-/// How often a leaf is halved before crossings of circles are looked at: samples 1/32 of a leaf apart.
+/// How often a leaf is halved before crossings of circles are examined: samples are then 1/32 of a leaf apart.
 const HALVINGS: u32 = 5;
 
-/// Cells are looked at with this share of their half side around them, so that a crossing on a side is in one.
+/// Cells are examined with this share of their half side around them, so that a crossing on a side is in one.
 const SLACK: f64 = 1e-6;
 
 /// A part of a leaf that may not be covered.
@@ -130,7 +130,7 @@ fn settle(
     Ok(())
 }
 
-/// Chooses the first crossing in the cell of two of the circles that no other covers; says whether there was one.
+/// Chooses the first crossing in the cell of two of the circles that no other covers; returns whether there was one.
 fn pick_crossing(picker: &mut Picker, circles: &[Near], speck: &Speck) -> Result<bool, MeshError> {
     for (index, one) in circles.iter().enumerate() {
         for other in &circles[index + 1..] {

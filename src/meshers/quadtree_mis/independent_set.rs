@@ -12,7 +12,7 @@ use crate::mesh::Piece;
 use crate::meshers::{MeshError, Trace};
 use serde::{Deserialize, Serialize};
 
-/// The order in which candidates are looked at, along the segments and within each tile of leaves.
+/// The order in which candidates are considered, along the segments and within each tile of leaves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Order {
@@ -20,11 +20,11 @@ pub enum Order {
     /// row settles into the hollows of the row before, which makes the packing denser than any other order does.
     #[default]
     Insertion,
-    /// Those first that the fewest other candidates would cover.
+    /// First those that the fewest other candidates would cover.
     Degree,
     /// Where the spacing is smallest first.
     Spacing,
-    /// Any, by seed.
+    /// In random order, by seed.
     Random,
 }
 
@@ -40,7 +40,7 @@ pub struct Packing {
     pub centres: Vec<DVec2>,
     /// Chains of centres along the input segments.
     pub pieces: Vec<Piece>,
-    /// What was counted on the way, by name.
+    /// Counts made on the way, by name.
     counts: [(&'static str, usize); 6],
 }
 

@@ -1,9 +1,9 @@
 //! Step 3 in the leaves: the independent set among their samples, tile by tile.
 //!
-//! Two candidates are in conflict where the circle of the one chosen first covers the other. The set is built greedily, in
+//! Two candidates are in conflict if the circle of the one chosen first covers the other. The set is built greedily, in
 //! an [`Order`] within each tile, so it is independent and maximal: what is not chosen is covered by a circle chosen
-//! before. Whether a sample is covered is asked of the few circles that reach into its leaf, looked up once a row of the
-//! leaf, and s is evaluated only for samples that are chosen.
+//! before. A sample is tested against the few circles that reach into its leaf, which are found once per row of the leaf,
+//! and s is evaluated only for samples that are chosen.
 
 use super::balance::{Leaf, Quadtree};
 use super::circles::{Row, row, samples};
@@ -88,7 +88,7 @@ impl<'a, 'b> Picker<'a, 'b> {
         }));
     }
 
-    /// Chooses the point of the leaf if it lies in the domain and no circle covers it; says whether it did.
+    /// Chooses the point of the leaf if it lies in the domain and no circle covers it; returns whether it did.
     pub fn pick(&mut self, x: DVec2) -> Result<bool, MeshError> {
         self.pick_at(x - self.anchor, [NO_CIRCLE; 2])
     }
@@ -119,7 +119,7 @@ impl<'a, 'b> Picker<'a, 'b> {
 const NO_CIRCLE: u32 = u32::MAX;
 
 /// A maximal independent set of the samples of a tile, given the circles that reach into it, to which it is added.
-/// Returns how many samples were looked at.
+/// Returns how many samples were examined.
 pub(super) fn interior(
     field: &Field,
     tree: &Quadtree,
@@ -195,7 +195,7 @@ fn from_below<'a>(mesher: &QuadtreeMis, mut leaves: Vec<usize>, place: impl Fn(u
     rows
 }
 
-/// Sets the random numbers of tiles apart.
+/// Makes the random numbers of tiles differ.
 const STREAM: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A sample that no circle covers yet.
@@ -208,11 +208,11 @@ struct Sample {
     counts: bool,
 }
 
-/// Most samples a side of a leaf that count when degrees are counted: enough to tell a crowded place from a free one, and
-/// work that does not grow with the fourth power of the oversampling.
+/// Most samples per side of a leaf that count when degrees are counted: enough to distinguish a crowded place from a free one,
+/// with work that does not grow with the fourth power of the oversampling.
 const COUNTED: u32 = 4;
 
-/// The samples of a tile being looked at.
+/// The samples of the tile at hand.
 struct Walk<'a, 'b, 'c> {
     picker: Picker<'a, 'b>,
     leaves: &'c [u32],
@@ -230,8 +230,8 @@ impl Walk<'_, '_, '_> {
         !self.is_done[leaf]
     }
 
-    /// Row by row. A row is passed over without a look at the circles around its leaf where, at the last look, one of
-    /// them covered it: most are.
+    /// Row by row. A row is skipped without a search for the circles around its leaf if one of those found last covers it, which
+    /// is so for most rows.
     fn row_by_row(&mut self, rows: &[Row], random: &mut Pcg64) -> Result<usize, MeshError> {
         let (picker, mut looked_at) = (&mut self.picker, 0);
         let mut next_row = vec![0; self.leaves.len()];

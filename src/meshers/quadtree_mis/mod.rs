@@ -3,19 +3,19 @@
 //! # Idea
 //! Refine a quadtree until its leaves are about as large as the edges wanted there. Put more points than needed into every
 //! leaf, each the centre of a circle of radius s = c_b f that no other vertex may lie in. Of these overlapping circles
-//! keep a maximal set in which none covers the centre of another. The centres are well spaced by construction, and as far as
+//! keep a maximal set in which none covers the centre of another. The centres are well spaced by construction, and if
 //! the samples were dense they leave no gap; so their Delaunay triangulation is well shaped (Theorem 4.1).
 //!
 //! # Steps
 //! 1. [`balance::balance`]: the quadtree, split until a leaf's side is at most [`QuadtreeMis::leaf_side`] · s, neighbours
 //!    within a factor of two of each other;
-//! 2. [`circles::circles`]: candidates on the segments; those in the leaves are made where they are looked at;
+//! 2. [`circles::circles`]: candidates on the segments; those in the leaves are made when they are examined;
 //! 3. [`independent_set::independent_set`]: on the input vertices, then the edges, then the interior; with
 //!    [`QuadtreeMis::complete`] it goes on sampling until no gap remains ([`complete::complete`]);
 //! 4. [`triangulate`] makes the constrained Delaunay triangulation of the centres.
 //!
 //! # Guarantee
-//! Always, each a check of the certificate, with t = α c_b < 1 and f ≤ lfs, c_b ≤ 1 where input vertices must be apart:
+//! Always, each a check of the certificate, with t = α c_b < 1 and, for input vertices to be apart, f ≤ lfs and c_b ≤ 1:
 //! * no centre lies in a circle chosen before it, ‖x − y‖ ≥ c_b min(f(x), f(y)), so the packing circles of radius
 //!   c_b f / (2 + t) are disjoint (Lemma 5.4, `packing-disjoint`, and `vertices-upper`, which follows);
 //! * nn ≥ c_b (1 − t) f at vertices (first half of the proof of Lemma 5.7, `nn-vertex-lower`) and
@@ -30,19 +30,19 @@
 //! The even division of segments makes that rare; it happens where input angles are acute.
 //!
 //! # Cost
-//! O(o) near-queries and O(o²) samples a leaf for o = [`QuadtreeMis::oversample`], f once a leaf, once a vertex, and some
-//! 4 + o times a vertex on the boundary; O(n log n) for the triangulation. Tiles of leaves are worked on in rounds by
+//! O(o) near-queries and O(o²) samples per leaf for o = [`QuadtreeMis::oversample`]; f is evaluated once per leaf, once per vertex,
+//! and about 4 + o times per vertex on the boundary; O(n log n) for the triangulation. Tiles of leaves are worked on in rounds by
 //! [`Request::threads`] threads ([`tiles`]); the mesh does not depend on how many there are.
 //!
 //! # Deviations from the paper (and why)
-//! * §4 says circles of radius f / 2 that do not overlap. Here two candidates are in conflict where the circle of radius
+//! * §4 says circles of radius f / 2 that do not overlap. Here two candidates are in conflict if the circle of radius
 //!   c_b f of the one chosen first covers the other: the same for uniform f, and for graded f what Definition 4.1 and
 //!   Lemma 5.4 need.
 //! * Gaps along the segments are closed whether complete or not ([`edges`]): interior points in them would stand next to
 //!   the boundary. So all of a mesh's gaps are in the interior.
 //! * The order of choice is one within tiles of at most 4096 leaves, tile after tile, so that it can be parallel without a
 //!   conflict graph in memory. In the default order the samples are scanned row by row.
-//! * Candidates are not stored: at 10⁶ triangles there would be some 10⁸ of them.
+//! * Candidates are not stored: at 10⁶ triangles there would be about 10⁸ of them.
 //!
 //! # Reference
 //! G. L. Miller, D. Talmor, S.-H. Teng, N. Walkington, "A Delaunay Based Numerical Method for Three Dimensions:
@@ -78,18 +78,18 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct QuadtreeMis {
-    /// Samples a side of a leaf and candidates a part of a segment's even division, 2 to 64. Default 8: each doubling
-    /// from 2 to 8 makes the packing some tenth denser and the gaps less than half as wide at little cost, since most
-    /// rows of samples are covered before they are looked at; 16 takes twice the time for a twentieth more.
+    /// Samples per side of a leaf and candidates per part of a segment's even division, 2 to 64. Default 8: each doubling
+    /// from 2 to 8 makes the packing about a tenth denser and the gaps less than half as wide at little cost, since most
+    /// rows of samples are covered before they are examined; 16 takes twice the time for a twentieth more.
     pub oversample: u32,
     /// Where the samples are in their squares.
     pub sampling: Sampling,
-    /// The order in which candidates are looked at.
+    /// The order in which candidates are considered.
     pub order: Order,
     /// Longest side of a leaf over s = c_b f in it, 1/64 to 1; sides are between half of that and that. Default 1: "until
-    /// the leaf is about f"; smaller leaves are the same as more samples, but cost a look at the circles around each.
+    /// the leaf is about f"; smaller leaves are the same as more samples, but cost a search for the circles around each.
     pub leaf_side: f64,
-    /// Whether to go on sampling where gaps remain until none does.
+    /// Whether to go on sampling where gaps remain until none is left.
     pub complete: bool,
 }
 
@@ -113,7 +113,7 @@ pub(super) const ENTRY: Entry = Entry {
             name: "oversample",
             values: "2 to 64",
             default: "8",
-            help: "samples a side of a leaf; the default is where denser samples stop paying",
+            help: "samples per side of a leaf; the default is where denser samples stop paying",
         },
         Parameter {
             name: "sampling",
@@ -125,7 +125,7 @@ pub(super) const ENTRY: Entry = Entry {
             name: "order",
             values: "insertion, degree, spacing, random",
             default: "insertion",
-            help: "which candidate is looked at first (open in §4): row by row, fewest conflicts, smallest spacing, any",
+            help: "which candidate is considered first (open in §4): row by row, fewest conflicts, smallest spacing, any",
         },
         Parameter {
             name: "leaf_side",
@@ -137,7 +137,7 @@ pub(super) const ENTRY: Entry = Entry {
             name: "complete",
             values: "true, false",
             default: "false",
-            help: "go on sampling where gaps remain until none does",
+            help: "go on sampling where gaps remain until none is left",
         },
     ],
     make: from_parameters::<QuadtreeMis>,

@@ -4,7 +4,7 @@
 //! A tile is a cell of the quadtree with all its leaves. Choosing circles in one tile cannot disturb another that is farther
 //! away than any circle of either reaches. So tiles are coloured such that those of one colour are that far apart, and all
 //! tiles of a colour make a round. Rounds follow one another; the tiles of a round are shared among threads, and since
-//! none sees what the others choose, the result does not depend on how.
+//! none sees what the others choose, the result does not depend on how they are shared.
 //!
 //! # Cost
 //! Each tile copies the circles of its neighbours that reach into it: a share of its own that falls with its size.
@@ -45,7 +45,7 @@ pub(super) struct Tiles {
     t: f64,
     /// How many circles are on the input boundary.
     boundary: usize,
-    /// None where there is one thread.
+    /// None if there is one thread.
     pool: Option<rayon::ThreadPool>,
     /// Rounds worked on so far.
     pub worked: usize,
@@ -150,7 +150,7 @@ struct Cutter<'a> {
 }
 
 impl Cutter<'_> {
-    /// Notes the leaves below `node` as waiting, and says so, if they are few enough for one tile; else makes tiles of its
+    /// Notes the leaves below `node` as waiting, and returns true, if they are few enough for one tile; else makes tiles of its
     /// quarters.
     fn group(&mut self, node: u32, cell: Rect) -> bool {
         let first = match self.tree.nodes[node as usize] {
