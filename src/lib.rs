@@ -61,7 +61,6 @@
 mod case;
 pub mod delaunay;
 pub mod domain;
-pub mod files;
 pub mod geometry;
 pub mod mesh;
 pub mod meshers;

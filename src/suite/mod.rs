@@ -17,6 +17,7 @@ pub mod charts;
 pub mod cli;
 pub mod fem;
 pub mod figures;
+mod files;
 pub mod lemmas;
 pub mod peers;
 pub mod replay;

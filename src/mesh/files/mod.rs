@@ -9,7 +9,7 @@
 //! | `.svg` | a drawing | – | – |
 //! | `.json` | every field of [`Mesh`] | the same | everything |
 //!
-//! Numbers are the shortest text that reads back to the same double. Files appear complete or not at all.
+//! Numbers are the shortest text that reads back to the same double.
 
 mod gmsh;
 mod json;
@@ -19,7 +19,6 @@ mod svg;
 mod triangle;
 mod vtu;
 
-use crate::files::write_together;
 use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use std::path::{Path, PathBuf};
@@ -120,15 +119,23 @@ fn format_of(path: &Path, allowed: impl Fn(Format) -> bool) -> Result<Format, Me
 /// # Errors
 /// An unknown ending, or what the file system says.
 pub fn write(mesh: &Mesh, path: &Path) -> Result<(), MeshFileError> {
+    put(&encode(mesh, path)?)
+}
+
+/// What [`write`] writes: the files with their bytes, of which a `.node` has two.
+///
+/// # Errors
+/// An unknown ending.
+pub fn encode(mesh: &Mesh, path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, MeshFileError> {
     let text = match format_of(path, |_| true)? {
-        Format::Triangle => return write_triangle(mesh, None, path),
+        Format::Triangle => return Ok(encode_triangle(mesh, None, path)),
         Format::Vtu => vtu::text(mesh, None),
         Format::Gmsh => gmsh::text(mesh),
         Format::Obj => obj::text(mesh),
         Format::Svg => svg::text(mesh),
         Format::Json => json::text(mesh),
     };
-    put(&[(path, text.as_bytes())])
+    Ok(vec![(path.to_owned(), text.into_bytes())])
 }
 
 /// Whether a format can carry a value for each point.
@@ -146,16 +153,26 @@ pub fn carries_values(path: &Path) -> bool {
 /// # Errors
 /// An ending that can carry no values, or what the file system says.
 pub fn write_with_values(mesh: &Mesh, values: &[f64], path: &Path) -> Result<(), MeshFileError> {
-    match format_of(path, has_values)? {
-        Format::Triangle => write_triangle(mesh, Some(values), path),
-        _ => put(&[(path, vtu::text(mesh, Some(values)).as_bytes())]),
-    }
+    put(&encode_with_values(mesh, values, path)?)
 }
 
-fn write_triangle(mesh: &Mesh, values: Option<&[f64]>, path: &Path) -> Result<(), MeshFileError> {
-    let (node, ele) = (path.with_extension("node"), path.with_extension("ele"));
-    let (node_text, ele_text) = (triangle::node_text(mesh, values), triangle::ele_text(mesh));
-    put(&[(&node, node_text.as_bytes()), (&ele, ele_text.as_bytes())])
+/// What [`write_with_values`] writes.
+///
+/// # Errors
+/// An ending that can carry no values.
+pub fn encode_with_values(mesh: &Mesh, values: &[f64], path: &Path) -> Result<Vec<(PathBuf, Vec<u8>)>, MeshFileError> {
+    Ok(match format_of(path, has_values)? {
+        Format::Triangle => encode_triangle(mesh, Some(values), path),
+        _ => vec![(path.to_owned(), vtu::text(mesh, Some(values)).into_bytes())],
+    })
+}
+
+fn encode_triangle(mesh: &Mesh, values: Option<&[f64]>, path: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let (node, ele) = (triangle::node_text(mesh, values), triangle::ele_text(mesh));
+    vec![
+        (path.with_extension("node"), node.into_bytes()),
+        (path.with_extension("ele"), ele.into_bytes()),
+    ]
 }
 
 /// Reads a mesh with a value for each of its points: the first attribute of a `.node`, the array `u` of a `.vtu`, or else its
@@ -236,10 +253,12 @@ pub fn read(path: &Path) -> Result<Mesh, MeshFileError> {
     }
 }
 
-fn put(files: &[(&Path, &[u8])]) -> Result<(), MeshFileError> {
-    write_together(files).map_err(|(path, source)| MeshFileError::Io {
-        path: path.to_path_buf(),
-        source,
+fn put(files: &[(PathBuf, Vec<u8>)]) -> Result<(), MeshFileError> {
+    files.iter().try_for_each(|(path, bytes)| {
+        std::fs::write(path, bytes).map_err(|source| MeshFileError::Io {
+            path: path.clone(),
+            source,
+        })
     })
 }
 

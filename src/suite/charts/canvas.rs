@@ -1,7 +1,7 @@
 //! From a figure to its two files: SVG with text as text, and PNG drawn at twice the size and averaged down.
 
 use super::bitmap::Bitmap;
-use crate::files::write_whole;
+use crate::suite::files::write_whole;
 use plotters::coord::Shift;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::{BitMapBackend, DrawingArea, DrawingBackend, IntoDrawingArea, SVGBackend, WHITE};

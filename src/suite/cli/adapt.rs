@@ -110,7 +110,8 @@ fn write(target: &Target, prepared: &Prepared, run: &Run, problem: &str) -> Outc
     };
     let problem = Problem::named(problem, domain.bounds()).map_err(Failure::input)?;
     let (_, values) = fem::solve_at_vertices(&run.mesh, &problem).map_err(Failure::input)?;
-    files::write_with_values(&run.mesh, &values, carrier).map_err(Failure::input)
+    let encoded = files::encode_with_values(&run.mesh, &values, carrier).map_err(Failure::input)?;
+    output::write_all(encoded).map(|_| ())
 }
 
 /// The rounds as a table for the terminal.

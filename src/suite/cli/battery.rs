@@ -3,9 +3,9 @@
 use super::exit::{Failure, Outcome};
 use super::output::{say, say_aside};
 use super::shards::{file_name, say_done};
-use crate::files::write_whole;
 use crate::suite::analysis::expect_battery::findings;
 use crate::suite::analysis::results::PLAN;
+use crate::suite::files::write_whole;
 use crate::suite::rows::journal::Journal;
 use crate::suite::rows::machine;
 use crate::suite::run::battery::CHUNKS;

@@ -2,10 +2,10 @@
 
 use super::exit::{Failure, Outcome};
 use crate::domain::Domain;
-use crate::files::write_whole;
 use crate::mesh::{Mesh, files};
 use crate::quality::{Certificate, Check};
 use crate::suite::charts;
+use crate::suite::files::{write_together, write_whole};
 use crate::suite::run::prepare::Store;
 use std::fmt::Display;
 use std::io::Write;
@@ -83,6 +83,12 @@ pub fn write_file(path: &Path, text: &str) -> Outcome {
     write_whole(path, text.as_bytes()).map_err(|cause| refused(path, cause))
 }
 
+/// Writes files that belong together, and returns their names.
+pub fn write_all(files: Vec<(PathBuf, Vec<u8>)>) -> Result<Vec<PathBuf>, Failure> {
+    write_together(&files).map_err(|(path, cause)| refused(path, cause))?;
+    Ok(files.into_iter().map(|(path, _)| path).collect())
+}
+
 fn refused(path: &Path, cause: std::io::Error) -> Failure {
     Failure::Input(format!("{}: {cause}", path.display()))
 }
@@ -102,13 +108,7 @@ pub fn write(target: &Target, domain: &Domain, mesh: &Mesh) -> Result<Vec<PathBu
             charts::draw_mesh(mesh, path).map_err(Failure::input)?;
             Ok(vec![path.clone()])
         }
-        Target::Mesh(path) => {
-            files::write(mesh, path).map_err(Failure::input)?;
-            match files::Format::of(path) {
-                Some(files::Format::Triangle) => Ok(vec![path.with_extension("node"), path.with_extension("ele")]),
-                _ => Ok(vec![path.clone()]),
-            }
-        }
+        Target::Mesh(path) => write_all(files::encode(mesh, path).map_err(Failure::input)?),
     }
 }
 

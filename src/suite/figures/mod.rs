@@ -18,8 +18,8 @@ mod study;
 #[cfg(test)]
 mod tests;
 
-use crate::files::write_whole;
 use crate::suite::analysis::results::Results;
+use crate::suite::files::write_whole;
 use drawing::{Drawing, Picture};
 use run::Run;
 use std::path::{Path, PathBuf};

@@ -20,8 +20,8 @@ pub mod slopes;
 pub mod statements;
 pub mod table;
 
-use crate::files::write_whole;
 use crate::suite::charts;
+use crate::suite::files::write_whole;
 use measured::Meshes;
 use std::path::{Path, PathBuf};
 use table::Line;

@@ -20,8 +20,8 @@ mod tests;
 
 pub use record::{About, Bites, Frame, Outline, Queue, Recording};
 
-use crate::files::write_whole;
 use crate::meshers::{Budget, MeshError, Request, Trace};
+use crate::suite::files::write_whole;
 use crate::suite::peers::AnyMesher;
 use crate::suite::rows::record::Cell;
 use crate::suite::run::prepare::Store;

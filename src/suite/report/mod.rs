@@ -38,9 +38,9 @@ mod tests;
 
 pub use quote::quote_findings;
 
-use crate::files::write_whole;
 use crate::suite::analysis::results::{PLAN, Results, ResultsError};
 use crate::suite::charts::ChartError;
+use crate::suite::files::write_whole;
 use crate::suite::rows::journal::{JournalError, read_rows};
 use crate::suite::rows::record::ROWS;
 use crate::suite::run::battery::CHUNKS;

@@ -1,7 +1,7 @@
 //! The findings of an experiment, quoted in another page.
 
 use super::{ReportError, findings_in_short};
-use crate::files::write_whole;
+use crate::suite::files::write_whole;
 use std::path::Path;
 
 /// Ends a quotation.

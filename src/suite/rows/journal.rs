@@ -4,7 +4,7 @@
 //! left, and is cut off. A later line with the key of an earlier one replaces it: so do repeats of a timed cell. When
 //! all is done the file is rewritten in the plan's order, byte for byte the same lines, by an atomic rename.
 
-use crate::files::write_whole;
+use crate::suite::files::write_whole;
 use crate::suite::rows::record::Row;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
