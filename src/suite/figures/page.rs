@@ -91,8 +91,8 @@ pub(super) fn readme(entries: &[Entry]) -> String {
          The caption of each says what is to be seen, in which run it was found, by which command the run can be made again, and \
          the hash of the numbers that it was drawn from; a test makes the numbers again and fails where a figure is stale \
          (`src/suite/figures/tests/`).\n\n\
-         Beside them: [what is wrong in the paper](errata.md) (`cargo run --release -- lemmas`), and two runs to step through in a \
-         browser, [a plate with a hole](replay-plate-hole.html) and [Italy](replay-italy.html) (`cargo run --release -- figures --replay \
-         plate-hole`).\n"
+         Beside them: [what is wrong in the paper](errata.md) (`cargo run --release -- lemmas`), and a run to step through in a \
+         browser, [a plate with a hole](replay-plate-hole.html) (`cargo run --release -- figures --replay plate-hole`, or any other \
+         domain, such as `italy`).\n"
     )
 }
