@@ -1,8 +1,5 @@
-"""The work of .ci/check_corners. The checker is imported once, since it takes longer to start than to check."""
+"""The work of .ci/check_corners. The independent checker is imported once, since it takes longer to start than to check."""
 
-import contextlib
-import importlib.util
-import io
 import json
 import multiprocessing
 import os
@@ -11,17 +8,12 @@ import subprocess
 import sys
 import tempfile
 
+import check_mesh
+
 BITING = os.environ.get("BITING", "target/release/biting")
 PAIRS = [(0.25, 0.25), (0.25, 0.75)]
 MIN_ANGLE = 14.47
 SECONDS = 300
-
-
-def load_checker(path):
-    spec = importlib.util.spec_from_file_location("checker", path)
-    checker = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(checker)
-    return checker
 
 
 def gallery():
@@ -46,19 +38,15 @@ def judge(task):
             return task, [f"exit status {run.returncode}: {run.stderr.strip()[-300:]}"], None, {}
         with open(stem + ".json") as file:
             counts = dict(json.load(file)["counts"])
-        sys.argv = ["checker", stem + ".poly", stem, "--min-angle", str(MIN_ANGLE)]
-        told = io.StringIO()
-        with contextlib.redirect_stdout(told):
-            CHECKER.main()
-        verdict = json.loads(told.getvalue())
+        verdict = check_mesh.check(stem + ".poly", stem, MIN_ANGLE)
         return task, verdict["bad"], verdict["min_angle_free"], counts
 
 
 def main():
-    count = int(sys.argv[2]) if len(sys.argv) > 2 else 100
-    first = int(sys.argv[3]) if len(sys.argv) > 3 else 0
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
+    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
     polygons = [f"random-simple:n={5 + 37 * seed % 196},seed={seed}" for seed in range(first, first + count)]
-    named = [domain for domain in gallery() if domain not in sys.argv[4:]]
+    named = [domain for domain in gallery() if domain not in sys.argv[3:]]
     failed = 0
     for title, domains in [("gallery", named), ("random polygons", polygons)]:
         for t, c_b in PAIRS:
@@ -76,8 +64,6 @@ def main():
             failed += wrong or not domains
     return 1 if failed else 0
 
-
-CHECKER = load_checker(sys.argv[1])
 
 if __name__ == "__main__":
     sys.exit(main())
