@@ -25,7 +25,7 @@ pub(super) fn solve(matrix: &Matrix, right: &[f64]) -> Result<Vec<f64>, FemError
         i: columns.iter().map(|column| *column as usize).collect(),
         x: values.to_vec(),
     };
-    // Of one unknown there is nothing to order, and the ordering would subtract two.
+    // With one unknown there is nothing to order, and the ordering would subtract two.
     let order = if size == 1 { NATURAL } else { MINIMUM_DEGREE };
     let mut solution = right.to_vec();
     rsparse::cholsol(&copy, &mut solution, order).map_err(|_| FemError::Singular { unknowns: size })?;

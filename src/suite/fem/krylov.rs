@@ -12,8 +12,8 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// Lanczos steps for a largest eigenvalue. From a random vector the relative error, always from below, is expected to be
-/// at most 0.103 (ln(n (k − 1)⁴) / (k − 1))² for k steps: 0.3 % at n = 10⁶, whatever the matrix. An eigenvalue that stands
-/// apart, as one bad triangle makes it, is found to rounding.
+/// at most 0.103 (ln(n (k − 1)⁴) / (k − 1))² for k steps: 0.3 % at n = 10⁶, whatever the matrix. An isolated eigenvalue,
+/// such as one bad triangle makes, is found up to rounding.
 pub(super) const STEPS: usize = 200;
 
 /// Conjugate gradients, from zero; can be run on.
@@ -53,8 +53,8 @@ impl<'a> ConjugateGradients<'a> {
         }
     }
 
-    /// Iterates until the residual is at most `to` times the right-hand side; false where that takes more than `limit`
-    /// iterations in all, or rounding leaves no direction to go.
+    /// Iterates until the residual is at most `to` times the right-hand side; false if that takes more than `limit`
+    /// iterations in all, or if rounding leaves no direction to go.
     pub fn run(&mut self, to: f64, limit: usize) -> bool {
         while self.relative_residual() > to {
             if self.lengths.len() >= limit || !self.step() {
@@ -144,7 +144,8 @@ pub(super) fn spectrum(cg: &ConjugateGradients) -> Option<Spectrum> {
         }
     });
     let [_, largest] = plain.extremes()?;
-    // The right-hand side may be blind to an end, by symmetry; a random vector hardly is. Both estimate from inside.
+    // By symmetry the right-hand side may have no part in an end of the spectrum; a random vector hardly ever lacks one. Both
+    // estimates are from inside.
     let [smallest, largest_preconditioned] = match (preconditioned.extremes()?, cg.tridiagonal().extremes()) {
         ([low, high], Some([cg_low, cg_high])) => [low.min(cg_low), high.max(cg_high)],
         (random, None) => random,
@@ -158,7 +159,7 @@ pub(super) fn spectrum(cg: &ConjugateGradients) -> Option<Spectrum> {
 }
 
 /// The operator on the Krylov space of a random vector, after [`STEPS`] steps or when the space is exhausted. Lost
-/// orthogonality is let be: it repeats extreme eigenvalues, it does not move them.
+/// orthogonality is accepted: it repeats extreme eigenvalues and does not move them.
 fn lanczos(size: usize, mut apply: impl FnMut(&[f64], &mut [f64])) -> Tridiagonal {
     let mut random = Pcg64::seed_from_u64(0);
     let mut vector: Vec<f64> = (0..size)

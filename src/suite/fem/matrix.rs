@@ -2,7 +2,7 @@
 
 use crate::mesh::Lists;
 
-/// A sparse matrix with both its halves, by rows of growing column.
+/// A sparse matrix with both its halves, by rows, each in the order of its columns.
 #[derive(Clone, Debug)]
 pub(super) struct Matrix {
     /// Row r is `first[r]..first[r + 1]`.
@@ -12,7 +12,7 @@ pub(super) struct Matrix {
 }
 
 impl Matrix {
-    /// Zeros, on the diagonal and where two vertices that `row_of` numbers are neighbours.
+    /// A matrix of zeros, with entries on the diagonal and where two vertices that `row_of` numbers are neighbours.
     pub fn zeros(row_of: &[Option<u32>], neighbours: &Lists) -> Self {
         let mut first = vec![0];
         let mut columns = Vec::new();
@@ -40,7 +40,7 @@ impl Matrix {
         columns.zip(self.values[range].iter().copied())
     }
 
-    /// Adds to an entry of the pattern; an entry outside it is none of the matrix and stays zero.
+    /// Adds to an entry of the pattern; an entry outside the pattern stays zero.
     pub fn add(&mut self, row: u32, column: u32, value: f64) {
         let start = self.first[row as usize];
         let entries = &self.columns[start..self.first[row as usize + 1]];

@@ -12,7 +12,7 @@
 //! 4. `norms.rs`: energy error |u − u_h|_H1 and L2 error against the exact ∇u and u, by quadrature under error control.
 //!
 //! # What it says about a mesh
-//! The energy error per unknown tells whether sizes follow u and whether large angles spoil interpolation; the largest
+//! The energy error per unknown shows whether sizes follow u and whether large angles spoil interpolation; the largest
 //! eigenvalue of the stiffness matrix grows like 1 / sin of the smallest angle, and explicit time steps shrink with it.
 //! Jacobi hides that growth: the preconditioned matrix of linear triangles has no eigenvalue above 3, and bad triangles
 //! show at the lower end, in the condition number and the iterations.
@@ -54,8 +54,8 @@ pub use problem::{Named, PROBLEMS, Problem};
 /// Residual, relative to the right-hand side, both Euclidean, at which iterations are counted.
 pub const RESIDUAL: f64 = 1e-8;
 
-/// Residual at which conjugate gradients give u_h where there is no factorisation: four digits below what is counted, since
-/// the error may exceed the residual by the condition number.
+/// Residual at which conjugate gradients give u_h if there is no factorisation: four digits below [`RESIDUAL`], since the error
+/// may exceed the residual by the condition number.
 pub const RESIDUAL_OF_SOLUTION: f64 = 1e-12;
 
 /// Unknowns up to which u_h comes from a factorisation: about ten seconds and 300 MB.
@@ -106,7 +106,7 @@ pub struct Solution {
     pub solver: Solver,
     /// Iterations of conjugate gradients to [`RESIDUAL`], or those done when they were given up.
     pub iterations: usize,
-    /// Whether they came there.
+    /// Whether they reached it.
     pub converged: bool,
     /// Eigenvalues; absent without unknowns.
     pub spectrum: Option<Spectrum>,
@@ -177,7 +177,7 @@ pub enum FemError {
     UnknownProblem {
         /// What was asked for.
         name: String,
-        /// What there is.
+        /// The names there are.
         known: String,
     },
 }

@@ -3,7 +3,7 @@
 //! Radon's rule of seven points suits smooth u: linear elements ask for degree 4 at most ((u − u_h)² where u is quadratic).
 //! Layers narrower than a triangle would slip through the points of any fixed rule, so a triangle is quartered until
 //! quartering it changes nothing that matters: the error of a mesh that misses the layer is then measured, not missed too.
-//! What matters is told by a floor, a magnitude below which a triangle's integral needs no digits; without it, the tails of
+//! A floor, a magnitude below which a triangle's integral needs no digits, decides what matters; without it, the tails of
 //! a peak and errors that are all rounding would be refined to the end.
 
 use crate::geometry::DVec2;
@@ -52,7 +52,7 @@ impl<const N: usize> Sums<N> {
         }
     }
 
-    /// Whether `finer` changes nothing that matters; also where nothing is finite, which no refinement would mend.
+    /// Whether `finer` changes nothing that matters; also true if nothing is finite, which no refinement would mend.
     fn agrees_with(&self, finer: &Self, floor: [f64; N]) -> bool {
         (0..N).all(|k| {
             let change = (self.values[k] - finer.values[k]).abs();

@@ -14,7 +14,7 @@ use super::run::Run;
 /// Draws to a stem, to which `.svg` and `.png` are added.
 pub(super) type Draw<'a> = Box<dyn Fn(&Path) -> Result<(), ChartError> + 'a>;
 
-/// How a figure's picture comes to be.
+/// How a figure's picture is made.
 pub(super) enum Picture<'a> {
     /// From scenes.
     Sheet(Sheet),
@@ -33,7 +33,7 @@ pub(super) struct Drawing<'a> {
     pub commands: Vec<String>,
 }
 
-/// Numbers by name, in order, to twelve digits: so many that nothing that shows can hide, so few that they can be read.
+/// Numbers by name, in order, to twelve digits: enough to show any difference, and few enough to be read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Numbers(Map<String, Value>);
 
@@ -64,7 +64,7 @@ impl Numbers {
         self.with(name, value)
     }
 
-    /// What a run was asked, and a hash of the mesh that came out.
+    /// What was asked of a run, and a hash of the mesh that came out.
     pub fn run(self, run: &Run) -> Self {
         self.with("domain", run.asked.domain.clone())
             .number("t", run.asked.t)

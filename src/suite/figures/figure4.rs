@@ -1,4 +1,4 @@
-//! Figure 4: triangles that see their circumcentre, and such that do not.
+//! Figure 4: triangles that see their circumcentre, and triangles that do not.
 
 use super::drawing::{self, Drawing, Numbers, Picture};
 use super::run::{Run, short};
@@ -20,7 +20,7 @@ pub(super) struct Obtuse {
     pub cut_by: Option<usize>,
     /// Whether the circumcentre is in the domain.
     pub is_inside: bool,
-    /// Whether no mesh vertex is in the circumcircle. Where the mesh is no Delaunay triangulation but for its forced pieces,
+    /// Whether no mesh vertex is in the circumcircle. If the mesh is a Delaunay triangulation only because pieces were forced,
     /// there may be some, across a segment.
     pub is_delaunay: bool,
 }
@@ -117,7 +117,7 @@ fn is_delaunay(run: &Run, [a, b, c]: [DVec2; 3]) -> bool {
 fn cut_by(run: &Run, corners: [DVec2; 3], centre: DVec2) -> Option<usize> {
     let [a, b, _] = corners;
     let inner = corners.iter().sum::<DVec2>() / 3.0;
-    // Corners on a segment lie beside it by rounding: look at points a little further in.
+    // Rounding puts corners on a segment beside it: take points a little further in.
     let seen = corners.map(|corner| corner.lerp(inner, PULLED_IN));
     let holds = |p: DVec2| orient2d(a, b, p) < 0.0 && orient2d(b, centre, p) < 0.0 && orient2d(centre, a, p) < 0.0;
     let hides = |segment: &usize| {

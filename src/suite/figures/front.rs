@@ -1,7 +1,7 @@
 //! What circles bitten so far leave uncovered: arcs of the circles, and pieces of the input segments (§5.1, "the front becomes
 //! a set of segments and arcs").
 //!
-//! Recomputed from domain and circles by looking at every pair, apart from the mesher's own front, which keeps vertices alone
+//! Recomputed from domain and circles by comparing every pair, apart from the mesher's own front, which keeps vertices alone
 //! and none before the boundary is covered.
 
 use crate::domain::Domain;

@@ -56,7 +56,7 @@ pub(super) struct Run {
     pub ground: Vec<[DVec2; 3]>,
 }
 
-/// Larger runs have nothing that smaller ones have not, and take time.
+/// Larger runs show nothing that smaller ones do not, and take time.
 const MOST_VERTICES: usize = 700;
 
 impl Run {
@@ -66,7 +66,7 @@ impl Run {
         Self::of(case.map_err(|error| format!("{}: {error}", asked.command()))?, asked)
     }
 
-    /// Of a case that there is already.
+    /// The run of a case that is there already.
     fn of(case: Case, asked: Asked) -> Result<Self, String> {
         let told = |error: &dyn std::fmt::Display| format!("{}: {error}", asked.command());
         let request = Request {
@@ -134,7 +134,7 @@ impl Run {
         }
     }
 
-    /// Whether a figure on this segment reads well: it lies level, with the domain above it.
+    /// Whether a figure on this segment reads well: the segment is level, with the domain above it.
     pub fn is_level(&self, segment: usize) -> bool {
         let [a, b] = self.case.domain.ends(segment);
         let above = a.midpoint(b) + 1e-3 * a.distance(b) * DVec2::Y;

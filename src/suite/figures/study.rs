@@ -136,7 +136,7 @@ const TRIANGULATION: &str = "delaunay_triangulation";
 /// Steps that take less of the whole, in the median, are not drawn: they would stretch the axis over what matters.
 const LEAST_SHARE: f64 = 0.01;
 
-/// Time a triangle against size, with the triangulation's own beside it.
+/// Time per triangle against size, with the triangulation's own beside it.
 pub(super) fn time(material: &Material) -> Result<Drawing<'_>, String> {
     let sweep = material.sweep()?;
     let series = time_series(&sweep.ours(Section::Time));
@@ -292,7 +292,7 @@ pub(super) fn spacing(_: &Material) -> Result<Drawing<'static>, String> {
     })
 }
 
-/// Points along each side of the box that are asked.
+/// Points along each side of the box at which the two are compared.
 const ASKED: usize = 300;
 
 /// The share of the domain on which the first is the smaller.

@@ -1,4 +1,4 @@
-//! What came out of reading the paper that no optimum tells: hypotheses used without being stated, steps that do not follow,
+//! Findings from reading the paper that no optimum shows: hypotheses used without being stated, steps that do not follow,
 //! misprints.
 
 use super::demonstration::{Demonstration, MeshRun, right_angle, shown, strip};

@@ -1,4 +1,4 @@
-//! A quantity over a box of unknowns, as well as its value in the middle and its slopes tell.
+//! A quantity over a box of unknowns, bounded by its value in the middle and its slopes.
 
 use super::search::Quantity;
 use super::slopes::{MOST_UNKNOWNS, Number};
@@ -52,8 +52,8 @@ impl Linear {
         sum
     }
 
-    /// The least value over the part of the box where the slacks are not negative, as far as Lagrange's multipliers tell:
-    /// for any factor ≥ 0 the quantity is at least itself less that times a slack. Factors are tried that cancel a slope.
+    /// A lower bound over the part of the box where the slacks are not negative, by Lagrange's multipliers: for any factor ≥ 0
+    /// the quantity is at least itself less the factor times a slack. The factors tried are those that cancel a slope.
     pub fn least_where(&self, slacks: &[Self], ranges: &[Interval]) -> f64 {
         let mut least = self.value.low;
         for slack in slacks.iter().filter(|slack| slack.value.low < 0.0) {

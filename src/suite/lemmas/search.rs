@@ -1,10 +1,10 @@
 //! The least value of a quantity over all configurations that hypotheses allow, proved by interval branch and bound.
 //!
 //! # Idea
-//! A configuration is a point of a box of unknowns. Interval arithmetic bounds the quantity over a whole box from below and tells
-//! where a constraint fails throughout; such boxes are dropped, the others halved, the most promising first. Where all constraints
-//! hold throughout a box and the quantity has a slope of one sign, only a side of it matters. What is left at the end
-//! brackets the least value: no configuration is below [`Optimum::proved`], one is at [`Optimum::found`].
+//! A configuration is a point of a box of unknowns. Interval arithmetic bounds the quantity over a whole box from below, and
+//! proves that a constraint fails throughout a box; such boxes are dropped, the others halved, the most promising first.
+//! Where all constraints hold throughout a box and the quantity has a slope of one sign, only a side of it matters. What is
+//! left at the end brackets the least value: no configuration is below [`Optimum::proved`], one is at [`Optimum::found`].
 //!
 //! # Reference
 //! R. E. Moore, "Interval Analysis", 1966; E. Hansen, "Global Optimization Using Interval Analysis", 1992.
@@ -80,7 +80,7 @@ pub struct Optimum {
     pub found: f64,
     /// The unknowns of that configuration.
     pub at: Vec<f64>,
-    /// How many boxes were looked at.
+    /// How many boxes were examined.
     pub boxes: usize,
 }
 
@@ -89,7 +89,7 @@ pub struct Optimum {
 pub struct Effort {
     /// Enough when `proved` and `found` are this near to each other.
     pub gap: f64,
-    /// And at most so many boxes.
+    /// Most boxes.
     pub most_boxes: usize,
 }
 
@@ -133,7 +133,7 @@ impl Ord for Part {
 }
 
 impl Problem {
-    /// The optimum for a value of the parameter; none where no configuration was found.
+    /// The optimum for a value of the parameter; none if no configuration was found.
     pub fn optimum(&self, sense: Sense, parameter: f64, effort: Effort) -> Option<Optimum> {
         let ranges = self.unknowns.iter().map(|unknown| (unknown.range)(parameter));
         Run {
@@ -147,7 +147,7 @@ impl Problem {
         .optimum(effort)
     }
 
-    /// All constraints over a box; none where one fails throughout.
+    /// All constraints over a box; none if one fails throughout.
     fn slacks(&self, parameter: Interval, ranges: &[Interval]) -> Option<Vec<Linear>> {
         let slacks = self.constraints.iter();
         let slacks = slacks.map(|constraint| Linear::over(constraint.slack, parameter, ranges));
@@ -192,7 +192,7 @@ impl Run<'_> {
         })
     }
 
-    /// Looks at a box: its middle may be a better configuration, and it is kept if better ones may be in it.
+    /// Examines a box: its middle may be a better configuration, and it is kept if better ones may be in it.
     fn consider(&mut self, mut ranges: Vec<Interval>, heap: &mut BinaryHeap<Part>) {
         let Some(slacks) = self.problem.slacks(self.parameter, &ranges) else {
             return;

@@ -2,7 +2,7 @@
 //! differentiation.
 //!
 //! Over a small box a function is bounded much better by its value in the middle and its slopes than by its own interval,
-//! and slopes of one sign say at which end of the box it is least.
+//! and slopes of one sign show at which end of the box it is least.
 
 use crate::geometry::interval::Interval;
 use std::ops::{Add, Div, Mul, Neg, Sub};

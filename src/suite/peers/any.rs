@@ -116,7 +116,7 @@ impl AnyMesher {
         }
     }
 
-    /// A mesh of which nothing else need be known.
+    /// The mesh, without what a peer reports of its run.
     ///
     /// # Errors
     /// [`RunError`].

@@ -22,13 +22,13 @@ const SCRIPT: &str = "install";
 /// Endings of the sources that folders share.
 const SHARED: [&str; 2] = ["hpp", "rs"];
 
-/// What changes without the installation growing old.
+/// Files that may change without the installation growing old.
 const NOT_INSTALLED: [&str; 2] = [ADAPTER, "README.md"];
 
 /// The cache folder of the peers.
 ///
 /// # Errors
-/// If there is no place for it, with the remedy.
+/// If there is no place for it; the message has the remedy.
 pub fn cache() -> Result<PathBuf, String> {
     let set = |name: &str| {
         std::env::var_os(name)
@@ -48,7 +48,7 @@ pub fn cache() -> Result<PathBuf, String> {
 /// How to start a peer, without its last argument, the request.
 ///
 /// # Errors
-/// That it is not installed, with the remedy.
+/// If it is not installed; the message has the remedy.
 pub fn command(name: &str) -> Result<Vec<OsString>, String> {
     command_in(&cache()?, Path::new(BASELINES), name)
 }

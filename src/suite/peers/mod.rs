@@ -2,7 +2,7 @@
 //!
 //! Processes, their groups and their memory are those of Unix; only Linux reports memory.
 //!
-//! A peer is no [`Mesher`](crate::meshers::Mesher): it runs elsewhere and reports its own times. [`AnyMesher`] is a mesher of
+//! A peer is not a [`Mesher`](crate::meshers::Mesher): it runs elsewhere and reports its own times. [`AnyMesher`] is a mesher of
 //! ours or a peer, to whoever runs both. What passes between a peer and this crate, and what a folder under `baselines/` must
 //! hold, is in `baselines/PROTOCOL.md`: [`exchange`] writes and reads the files, [`size_field`] is the size function in one of
 //! them, [`process`] starts the program and ends it at its limits, [`install`] knows which are there.
@@ -40,10 +40,10 @@ pub const SIZE: Parameter = Parameter {
 /// compared.
 pub const FIELD_ERROR: f64 = 0.01;
 
-/// What a peer may take beside the seconds it may mesh: interpreter, imports, files.
+/// Seconds that a peer may take besides those for meshing: interpreter, imports, files.
 const SET_UP: Duration = Duration::from_secs(60);
 
-/// Memory of a peer's process group where the request has no limit, bytes.
+/// Memory that a peer's process group may take if the request has no limit, bytes.
 const MEMORY: u64 = 8_000_000_000;
 
 /// A peer with its parameters.

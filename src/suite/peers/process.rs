@@ -34,13 +34,13 @@ pub enum Ending {
 /// The exit status of a peer that declines.
 const DECLINED: i32 = 4;
 
-/// Between two looks at a running process: seldom enough not to disturb what is timed.
+/// The time between two looks at a running process: long enough not to disturb what is timed.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Looks between two at memory, which reads the whole process table.
+/// The number of looks between two at memory, which reads the whole process table.
 const LOOKS: u32 = 10;
 
-/// Of what a program says on failing, at most so many characters are kept.
+/// At most this number of characters is kept of what a program says on failing.
 const SAID: usize = 300;
 
 const ERRORS: &str = "stderr.txt";
@@ -148,7 +148,7 @@ impl Drop for Group {
     }
 }
 
-/// Resident memory of all processes of a group, as far as the system tells (Linux).
+/// Resident memory of all processes of a group, if the system reports it (Linux).
 fn group_bytes(leader: u32) -> u64 {
     let Ok(processes) = std::fs::read_dir("/proc") else {
         return 0;
@@ -159,7 +159,7 @@ fn group_bytes(leader: u32) -> u64 {
     stats.filter_map(|stat| resident_in(&stat, leader)).sum()
 }
 
-/// Resident bytes that a line of `/proc/PID/stat` tells of, if the process belongs to the group.
+/// The resident bytes in a line of `/proc/PID/stat`, if the process belongs to the group.
 fn resident_in(stat: &str, leader: u32) -> Option<u64> {
     // The name, in brackets, may hold anything: fields are counted from behind it.
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();

@@ -17,8 +17,8 @@ const DEPTH: u32 = 30;
 /// The root's side on that grid.
 const SIDE: u32 = 1 << DEPTH;
 
-/// A leaf inside which f may change by more than this share of itself, as its Lipschitz constant has it, is split
-/// unseen: features smaller than the leaf could hide between the points where f is looked at.
+/// A leaf in which f may change by more than this share of itself, by its Lipschitz constant, is split in any case: features
+/// smaller than the leaf could hide between the points where f is evaluated.
 const UNSEEN: f64 = 1.0;
 
 /// First of the four children of a leaf.
@@ -323,7 +323,7 @@ mod tests {
                     worst = worst.max((field.at(x) / exact.at(x) - 1.0).abs());
                 }
             }
-            // It is looked at in nine points of a leaf only.
+            // It is compared in nine points of a leaf only.
             assert!(worst < 0.05, "{name} {spec}: {worst}");
         }
     }

@@ -29,7 +29,7 @@ use crate::suite::run::runner;
 use crate::theory::Rule;
 use std::path::{Path, PathBuf};
 
-/// A page of more bites would be larger than 3 MB or so, and no longer play smoothly.
+/// Most bites: a page of more would be larger than about 3 MB, and no longer play smoothly.
 pub const MOST_BITES: usize = 20_000;
 
 const PAGE: &str = include_str!("page.html");
@@ -50,7 +50,7 @@ pub enum ReplayError {
     /// The domain, the spacing or a parameter is not right, or the page cannot be written.
     #[error("{0}")]
     Input(String),
-    /// Biting did not come to its end.
+    /// Biting did not finish.
     #[error("{0}; a replay has at most {MOST_BITES} bites: ask for a larger spacing, t or c_b")]
     Mesh(#[from] MeshError),
 }
@@ -98,7 +98,7 @@ fn recording(cell: &Cell) -> Result<Recording, ReplayError> {
 /// The page of a recording. Equal recordings give equal pages, byte by byte.
 fn page(recording: &Recording) -> Result<String, String> {
     let data = serde_json::to_string(recording).map_err(|error| error.to_string())?;
-    // Only strings can hold this character, and JSON reads it so too: no text of ours can end the element it stands in.
+    // Only strings can hold this character, and JSON reads the escape too: no text of ours can end the element it is in.
     let data = data.replace('<', "\\u003c");
     let script = SCRIPTS.join("\n");
     let mut rest = PAGE;

@@ -16,7 +16,7 @@ pub(super) fn rings(domain: &Domain) -> Vec<Vec<u32>> {
         open.entry(segment.a).or_default().push(s);
         open.entry(segment.b).or_default().push(s);
     }
-    // Every vertex has an even number of boundary segments, so that a walk ends only where it began.
+    // Every vertex has an even number of boundary segments, so a walk ends only where it began.
     let mut rings = Vec::new();
     while let Some(start) = open.iter().find(|(_, left)| !left.is_empty()).map(|(&v, _)| v) {
         let mut ring = Vec::new();
@@ -79,7 +79,7 @@ fn is_cut_off(is_cut: &[bool], vertex: u32) -> bool {
     is_cut.get(vertex as usize).copied().unwrap_or(false)
 }
 
-/// What circles cannot see: of each bite, the sides of notches (angles under 90° that open to the outside) that stand between
+/// What circles cannot see: of each bite, the sides of notches (angles under 90° that open to the outside) that lie between
 /// its centre and points in its circle, as input vertices.
 pub(super) fn shadows(domain: &Domain, bites: &[Bite]) -> Vec<[u32; 3]> {
     let notches: Vec<(usize, Wedge)> = (0..domain.vertices().len())

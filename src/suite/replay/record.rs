@@ -1,4 +1,4 @@
-//! What a replay's page carries: columns of whole numbers.
+//! The data in a replay's page: columns of whole numbers.
 //!
 //! Lengths count units of [`Frame::unit`], places units from [`Frame::corner`], y upward.
 
@@ -16,7 +16,7 @@ use crate::theory::{Promises, Rule};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
-/// The larger side of the domain's box has so many units: enough to zoom in on the smallest circles.
+/// The number of units along the larger side of the domain's box: enough to zoom in on the smallest circles.
 const UNITS: f64 = 1e7;
 
 /// Ranks are written as whole numbers of this: f, an angle or a shape to four digits.
@@ -67,7 +67,7 @@ pub struct About {
 pub struct Frame {
     /// Its lower left corner.
     pub corner: [f64; 2],
-    /// What one unit is in the domain's lengths.
+    /// One unit in the domain's unit of length.
     pub unit: f64,
     /// Its width and height in units.
     pub size: [i64; 2],
@@ -155,7 +155,7 @@ pub(super) fn record(cell: &Cell, prepared: &Prepared, mesh: &Mesh, bites: &[Bit
     })
 }
 
-/// That a mesher does not bite, in words.
+/// The message that a mesher does not bite.
 pub(super) fn no_bites(cell: &Cell) -> String {
     format!("mesher `{}` has no bites to replay", cell.mesher)
 }
@@ -242,7 +242,7 @@ fn letter(reason: Reason) -> char {
     }
 }
 
-/// The front vertex that a bite was centred on: where several stood at the same point, the one whose turn it was.
+/// The front vertex that a bite was centred on: if several were at the same point, the one whose turn it was.
 fn chosen(bite: &Bite, queue: &Queue) -> Option<u32> {
     if bite.reason != Reason::FrontVertex {
         return None;

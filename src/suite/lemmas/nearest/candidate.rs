@@ -16,7 +16,7 @@ const MOST: usize = 16;
 const MARGIN: f64 = 0.05;
 /// Coordinates are whole multiples of this, so that files hold them as they are.
 const DECIMALS: f64 = 1e7;
-/// The expression's proved Lipschitz constant may be above its slope by so much.
+/// The expression's proved Lipschitz constant may be above its slope by this share.
 const PROVED: f64 = 1.01;
 
 /// A domain, a spacing and how to bite it, for one t.

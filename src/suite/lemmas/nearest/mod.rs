@@ -7,7 +7,7 @@
 //! and `lemmas` meshes them again.
 //!
 //! # Deviations
-//! A search finds what it finds: that nothing nearer is known does not say that there is nothing.
+//! A search proves nothing: that nothing nearer is known does not mean that there is nothing.
 
 mod candidate;
 
@@ -40,7 +40,7 @@ const STEP: f64 = 0.1;
 const BETTER: f64 = 1.3;
 const NOT_BETTER: f64 = 0.85;
 const LEAST_STEP: f64 = 1e-7;
-/// Larger meshes have nothing that smaller ones have not, and take time.
+/// Larger meshes show nothing that smaller ones do not, and take time.
 const MOST_VERTICES: usize = 2000;
 /// Below `results/lemmas`.
 const FOLDER: &str = "nearest";
