@@ -8,7 +8,7 @@ use crate::spacing::{self, ControlSpacing, Integral, Options, Spacing, SpacingEr
 use crate::theory::{Claim, Rule};
 use std::sync::Arc;
 
-/// A domain with the f and the c_b to mesh it by.
+/// A domain with the f and the c_b by which to mesh it.
 ///
 /// ```
 /// use biting::{Case, domain::Domain, meshers::biting::Biting};
@@ -22,13 +22,13 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone)]
 pub struct Case {
-    /// The domain.
+    /// The domain to mesh.
     pub domain: Arc<Domain>,
     /// f as a mesher sees it.
     pub spacing: ControlSpacing,
     /// Biting constant: the target edge length at x is c_b f(x).
     pub c_b: f64,
-    /// ∫ dA / f², if it is known: without it the judge has no bounds on the number of vertices.
+    /// ∫ dA / f², if it is known: without it the certificate has no bounds on the number of vertices.
     pub integral: Option<Integral>,
 }
 
@@ -41,7 +41,7 @@ impl Case {
         Self::with(domain, spec, c_b, &Options::new(t, c_b))
     }
 
-    /// The same with other [`Options`] for the spacing.
+    /// The same, with the spacing made by `options`.
     ///
     /// # Errors
     /// [`SpacingError`].
@@ -51,10 +51,10 @@ impl Case {
         Ok(Self::of(domain, spacing, c_b))
     }
 
-    /// A case with a size function in code, capped by lfs and limited to α = t / c_b as a SPEC is.
+    /// A case with a size function in code, capped by lfs and limited to α = t / c_b as that of a SPEC would be.
     ///
     /// # Errors
-    /// [`SpacingError`], if `function` is not positive or nothing bounds its slope.
+    /// [`SpacingError`] if `function` is not positive, or nothing bounds its slope.
     pub fn from_spacing(
         domain: impl Into<Arc<Domain>>,
         function: impl Spacing + 'static,
@@ -66,7 +66,7 @@ impl Case {
         Ok(Self::of(domain, spacing, c_b))
     }
 
-    /// A case with a spacing as it is, neither capped nor limited.
+    /// A case with a spacing that meshers see as it is, without a cap or a limit.
     pub fn of(domain: impl Into<Arc<Domain>>, spacing: ControlSpacing, c_b: f64) -> Self {
         Self {
             domain: domain.into(),
@@ -76,7 +76,7 @@ impl Case {
         }
     }
 
-    /// The same with ∫ dA / f² to a relative error of about `error`.
+    /// The same case with ∫ dA / f², to a relative error of about `error`.
     ///
     /// # Errors
     /// [`SpacingError`].
@@ -93,7 +93,7 @@ impl Case {
         self.c_b * self.spacing.function.lipschitz()
     }
 
-    /// The request to a mesher: this c_b, seed 0, one thread, no budget.
+    /// The request of [`Case::mesh`]: this c_b, seed 0, one thread, no budget.
     pub fn request(&self) -> Request {
         Request::new(self.c_b)
     }
@@ -118,7 +118,7 @@ impl Case {
         mesher.mesh(&self.domain, &*self.spacing.function, &request, trace)
     }
 
-    /// Judges a mesh from anywhere: its structure must hold; the paper's bounds are measured.
+    /// Judges a mesh from anywhere: its structure must be right, the paper's bounds are only measured.
     pub fn judge(&self, mesh: &Mesh) -> (Statistics, Certificate) {
         self.held_to(mesh, Rule::Earlier, &[])
     }
@@ -128,7 +128,8 @@ impl Case {
         self.held_to(mesh, mesher.rule(), &self.guaranteed(mesher))
     }
 
-    /// The claims that `mesher` guarantees here; those of the paper count only where their hypotheses hold.
+    /// The claims that `mesher` guarantees for this case; the paper's among them are guaranteed if their hypotheses
+    /// hold.
     pub fn guaranteed(&self, mesher: &dyn Mesher) -> Vec<Claim> {
         let is_plain = quality::hypotheses(&self.domain, &self.bounds(mesher.rule(), &[]), 0).is_plain();
         let guarantees = mesher.guarantees().into_iter();

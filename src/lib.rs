@@ -1,6 +1,6 @@
-//! Provably good triangle meshes of domains in the plane, by *biting*: an advancing front that packs circles (Li, Teng, Üngör,
-//! "Biting: Advancing Front Meets Sphere Packing"), with three rivals beside it and a certificate that checks every bound of
-//! the paper on every mesh.
+//! Provably good triangle meshes of domains in the plane, by *biting*: an advancing front that packs circles (Li, Teng,
+//! Üngör, "Biting: Advancing Front Meets Sphere Packing"), with three other methods to compare it with and a
+//! certificate that checks every bound of the paper on every mesh.
 //!
 //! ```
 //! use biting::{Case, domain::Domain, mesh::files, meshers::biting::Biting};
@@ -22,14 +22,14 @@
 //!
 //! `domain ─► spacing ─► mesher ─► mesh ─► certificate ─► record ─► charts and report`
 //!
-//! [`Case`] is one domain with the f and the c_b to mesh it by. The modules, in the order in which to read them:
+//! [`Case`] is one domain with the f and the c_b by which to mesh it. The modules, in the order in which to read them:
 //!
 //! | module | contains |
 //! |---|---|
 //! | [`theory`] | the paper's formulas, hypotheses and claims, each once |
-//! | [`geometry`] | points, exact predicates (the one door for signs), near-queries |
+//! | [`geometry`] | points, exact predicates (all signs come from there), near-queries |
 //! | [`domain`] | the PSLG Ω to mesh: vertices, segments, holes; files, gallery, validation, repair |
-//! | [`mesh`] | the result: triangles, markers, regions, and its files |
+//! | [`mesh`] | the mesh: triangles, markers, regions, and its files |
 //! | [`delaunay`] | points and boundary pieces → constrained Delaunay triangulation, carved |
 //! | [`spacing`] | control spacing f: local feature size, expressions, earlier meshes; gradient limiting; ∫ dA / f² |
 //! | [`meshers`] | the trait [`meshers::Mesher`] and the list [`meshers::MESHERS`]; [`meshers::biting`] is the paper's |

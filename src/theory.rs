@@ -1,9 +1,9 @@
-//! The paper's formulas, hypotheses and claims, each once: meshers and quality both take them from here, and import nothing from
-//! one another.
+//! The paper's formulas, hypotheses and claims, each once. Meshers and quality both import them from here, and neither
+//! imports the other.
 //!
-//! [`Rule`] is who bites whom, [`Promises`] has every bound for a rule and t, [`Hypotheses`] are what the bounds need, and
-//! [`Claim`] names the checks of the certificate. For [`Rule::Earlier`] the numbers are the paper's; for [`Rule::Later`] the
-//! docs of [`crate::meshers::biting`] derive them.
+//! [`Rule`] says who bites whom, [`Promises`] has every bound for a rule and t, [`Hypotheses`] has what the bounds
+//! need, and [`Claim`] names the checks of the certificate. For [`Rule::Earlier`] the numbers are the paper's; for
+//! [`Rule::Later`] the docs of [`crate::meshers::biting`] derive them.
 
 use crate::geometry::tolerance::RIGHT_ANGLE_DEG;
 use serde::{Deserialize, Serialize};
@@ -13,31 +13,32 @@ use std::fmt;
 #[cfg(test)]
 mod tests;
 
-/// The t = α c_b below which a spacing counts as flat: where biting must come down to a smaller size beside a corner, it
-/// then grows away from there faster than the spacing would.
+/// The t = α c_b below which a spacing counts as flat. If biting must go down to a smaller size beside a corner, sizes
+/// then grow away from there faster than the spacing would.
 pub const FLAT_T: f64 = 0.05;
 
 /// √2 − 1, the largest t = α c_b for which biting is proved to work with distances inside the domain.
 pub const GEODESIC_T: f64 = SQRT_2 - 1.0;
 
-/// 1/3, the largest t for which §6 bounds what happens at the boundary.
+/// 1/3, the largest t for which the bounds of §6 at the boundary hold.
 pub const BOUNDARY_T: f64 = 1.0 / 3.0;
 
 /// Whose spacing sets the distance of two points x and y, x bitten before y. With g = c_b f and t its Lipschitz constant:
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rule {
-    /// That of the earlier point, ‖x − y‖ ≥ g(x), as in the paper: y lies in no circle of those before it. Biting ends when
-    /// every point z of the domain has ‖x − z‖ ≤ g(x) for some x.
+    /// That of the earlier point, ‖x − y‖ ≥ g(x), as in the paper: y lies in no circle of the points before it. Biting
+    /// ends when every point z of the domain has a bitten point x with ‖x − z‖ ≤ g(x).
     #[default]
     Earlier,
-    /// That of the later point, ‖x − y‖ ≥ g(y): no point before lies in the circle of y. Biting ends when every point z of
-    /// the domain has ‖x − z‖ ≤ g(z) for some x.
+    /// That of the later point, ‖x − y‖ ≥ g(y): no point before lies in the circle of y. Biting ends when every point z
+    /// of the domain has a bitten point x with ‖x − z‖ ≤ g(z).
     Later,
 }
 
 impl Rule {
-    /// The one of two values that counts for the distance of two points: that of the point bitten first, or that of the other.
+    /// The one of two values that counts for the distance of two points: that of the point bitten first, or that of the
+    /// other.
     pub fn of<T>(self, earlier: T, later: T) -> T {
         match self {
             Self::Earlier => earlier,
@@ -51,8 +52,8 @@ pub fn packing_constant(c_b: f64, t: f64) -> f64 {
     c_b / (2.0 + t)
 }
 
-/// β = (1 + t) / (1 − t) of Theorem 5.5: no point y of the domain is farther than β c_p f(y) from all packing circles.
-/// Infinite from t = 1 on.
+/// β = (1 + t) / (1 − t) of Theorem 5.5: every point y of the domain has a packing circle within β c_p f(y). Infinite
+/// from t = 1 on.
 pub fn beta(t: f64) -> f64 {
     if t < 1.0 { (1.0 + t) / (1.0 - t) } else { f64::INFINITY }
 }
@@ -63,7 +64,7 @@ pub fn least_meeting_height(t: f64) -> f64 {
     (1.0 - t) * ((t * t - 4.0 * t + 7.0) * (1.0 - t * t)).max(0.0).sqrt() / 4.0
 }
 
-/// The bounds of biting for a rule and t = c_b · lipschitz(). Distances are over c_b f.
+/// The bounds of biting for a rule and t = c_b · lipschitz(). Distances are in units of c_b f.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Promises {
     /// Who bites whom.
@@ -99,8 +100,8 @@ impl Promises {
         [least, self.upper(most)]
     }
 
-    /// The most that what one point eats can hold of ∫ dA / (c_b f)²: π / (1 − t)², since f ≥ (1 − t) f(x) in its circle;
-    /// −2π (ln(1 − t) + t) / t² by the rule of the later point, where g grows with t away from it.
+    /// The most of ∫ dA / (c_b f)² that one point x can eat: π / (1 − t)², since f ≥ (1 − t) f(x) in its circle; −2π
+    /// (ln(1 − t) + t) / t² by the rule of the later point, where g grows with t away from it.
     pub fn most_eaten(self) -> f64 {
         let t = self.t;
         let by_later = if t < 1e-4 {
@@ -112,21 +113,22 @@ impl Promises {
         self.upper(self.rule.of(PI / ((1.0 - t) * (1.0 - t)), by_later))
     }
 
-    /// How many vertices a mesh has, by share of their packing circles in the domain: at least what covers ∫ dA / f², at
-    /// most as many packing circles as it has room for. `integral` is from its least to its largest value.
+    /// The fewest and the most vertices of a mesh, each counted by the share of its packing circle that lies in the
+    /// domain: at least as many as cover ∫ dA / f², at most as many as there is room for their packing circles.
+    /// `integral` is the least and the largest value that the integral may have.
     pub fn vertices(self, c_b: f64, integral: [f64; 2]) -> [f64; 2] {
         let fewest = integral[0] / (self.most_eaten() * c_b * c_b);
         let most = 4.0 * (1.0 + self.t).powi(2) * integral[1] / (PI * c_b * c_b);
         [fewest, most]
     }
 
-    /// The bound from above needs t < 1.
+    /// No upper bound holds from t = 1 on.
     fn upper(self, bound: f64) -> f64 {
         if self.t < 1.0 { bound } else { f64::INFINITY }
     }
 }
 
-/// A claim of the certificate, the structural ones first; [`crate::quality`] has the table of what each says.
+/// A claim of the certificate, the structural ones first; the table in [`crate::quality`] has what each says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs)]
@@ -204,7 +206,7 @@ impl Claim {
         }
     }
 
-    /// The place in the paper; empty for the structural claims.
+    /// The place in the paper that states it; empty for the structural claims.
     pub fn lemma(self) -> &'static str {
         match self {
             Self::PackingDisjoint => "Lemma 5.4",
@@ -228,13 +230,14 @@ impl fmt::Display for Claim {
     }
 }
 
-/// A claim that a method guarantees, where the claim's hypotheses hold.
+/// A claim that a method guarantees if the claim's hypotheses hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Guarantee {
     /// The claim.
     pub claim: Claim,
-    /// Whether only in plain cases: no angle under 90° between neighbouring segments, inside or outside, and, by the paper's
-    /// rule, c_b + t ≤ 1. Elsewhere the method meshes with a smaller spacing than it was given, or without some circles.
+    /// Whether only in plain cases: no angle between neighbouring segments, inside or outside, is under 90°, and, by
+    /// the paper's rule, c_b + t ≤ 1. In other cases the method meshes with a smaller spacing than it was given, or
+    /// leaves out some circles.
     pub plain: bool,
 }
 
@@ -263,25 +266,26 @@ pub struct Hypotheses {
     pub lfs_cap: bool,
     /// Smallest angle between neighbouring segments, inside or outside, degrees; 360 if none.
     pub smallest_segment_angle_deg: f64,
-    /// Input segments bitten at their two vertices only, whose circles meet lower than (9).
+    /// The number of input segments bitten at their two vertices only, whose circles meet lower than (9).
     pub low_head_on: usize,
     /// Whether every vertex with an angle under 90° inside has no other angle inside.
     pub single_corners: bool,
-    /// Whether f is Lipschitz, and lfs measured, by distances inside the domain.
+    /// Whether f is Lipschitz, and lfs measured, in distances inside the domain.
     pub is_geodesic: bool,
-    /// Whether a vertex with an angle under 90° inside, which has no circle where corners are cut off, may hide points: whether it
-    /// has an angle under 180° outside.
+    /// Whether a vertex with an angle under 90° inside, which has no circle if corners are cut off, may hide points:
+    /// whether it has an angle under 180° outside.
     pub corners_hide: bool,
 }
 
 impl Hypotheses {
-    /// Whether neither the domain nor the request needs anything that the paper does not have: no angle under 90° between
-    /// neighbouring segments, inside or outside, and c_b + t ≤ 1, which the rule of the later point does not need.
+    /// Whether neither the domain nor the request needs anything that the paper does not have: no angle between
+    /// neighbouring segments, inside or outside, is under 90°, and c_b + t ≤ 1. The rule of the later point does not
+    /// need the second.
     pub fn is_plain(&self) -> bool {
         (self.rule == Rule::Later || self.c_b + self.t <= 1.0) && self.has_no_small_angle()
     }
 
-    /// Whether a claim follows from them for a mesh made by biting.
+    /// Whether a claim follows from these hypotheses for a mesh made by biting.
     pub fn imply(&self, claim: Claim) -> bool {
         if self.is_geodesic && (self.rule == Rule::Later || self.t > GEODESIC_T || self.corners_hide) {
             return false;
@@ -302,7 +306,7 @@ impl Hypotheses {
         self.vertices_apart() && self.t <= BOUNDARY_T && self.has_no_small_angle()
     }
 
-    /// What Theorem 6.8 needs, stated or not; by the rule of the later point any t < 1 is enough.
+    /// What Theorem 6.8 needs, stated or not; by the rule of the later point, any t < 1 is enough.
     fn of_theorem_6_8(&self) -> bool {
         match self.rule {
             Rule::Earlier => self.of_section_6() && self.low_head_on == 0,
@@ -315,8 +319,8 @@ impl Hypotheses {
         self.lfs_cap && self.c_b <= 1.0
     }
 
-    /// Whether corners can be cut off so that the angle bound holds beyond them: to the sizes cut off there, the spacing
-    /// must come down with t.
+    /// Whether corners can be cut off so that the angle bound holds beyond them: with t, the spacing must come down to
+    /// the sizes of the cuts.
     fn corners_can_be_cut(&self) -> bool {
         let steepest = self.rule.of(BOUNDARY_T, 1.0 / 2.0);
         self.vertices_apart() && self.t <= steepest && (self.t >= FLAT_T || self.is_plain())

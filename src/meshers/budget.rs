@@ -1,4 +1,4 @@
-//! Budgets: a mesher that reaches one gives up with an error that says where it was.
+//! Budgets: a mesher that exceeds one gives up with an error that says where it was.
 
 use super::MeshError;
 use crate::geometry::DVec2;
@@ -7,11 +7,11 @@ use std::time::Instant;
 /// Limits that end in [`MeshError::Budget`], never in a hang.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Budget {
-    /// Most vertices that a mesh may have.
+    /// The most vertices that a mesh may have.
     pub max_vertices: Option<usize>,
-    /// Most seconds that a mesher may take.
+    /// The most seconds that a mesher may take.
     pub max_seconds: Option<f64>,
-    /// Most resident memory of the process, in bytes.
+    /// The most resident memory that the process may use, in bytes.
     pub max_memory: Option<u64>,
 }
 
@@ -33,7 +33,7 @@ impl Monitor {
         }
     }
 
-    /// To be called with the number of vertices so far, the place of the next one, and the size there.
+    /// Called with the number of vertices so far, and with the place and size of the next one.
     pub fn placed(&self, vertices: usize, at: DVec2, size: f64) -> Result<(), MeshError> {
         // Every mesh has fewer than 2³² vertices: indices are u32.
         let most = self
@@ -77,7 +77,7 @@ fn stopped(budget: String, vertices: usize, at: DVec2, size: f64) -> MeshError {
     }
 }
 
-/// Resident memory of the process in bytes, where the system reports it (Linux).
+/// Resident memory of the process in bytes, if the system reports it (Linux).
 pub(crate) fn resident_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

@@ -1,4 +1,4 @@
-//! The trait [`Mesher`], what is asked of one ([`Request`]) and what it returns, and the list of all meshers.
+//! The trait [`Mesher`] with what it takes ([`Request`]) and what it returns, and the list of all meshers.
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;
@@ -23,10 +23,10 @@ pub use snapshot::{Bite, Reason, Waiting};
 /// Parameters of a mesher by name.
 pub type Parameters = serde_json::Map<String, serde_json::Value>;
 
-/// Makes a mesher from its parameters, or says which one is wrong.
+/// Makes a mesher from its parameters, or returns a message that names the wrong one.
 pub type Make = fn(&Parameters) -> Result<Box<dyn Mesher>, String>;
 
-/// One mesher of the suite. The command line, legends, conformance tests and docs iterate [`MESHERS`]; nobody types a
+/// One mesher of the library. The command line, legends, conformance tests and docs iterate [`MESHERS`]; nobody types a
 /// mesher's name a second time.
 pub struct Entry {
     /// Name on the command line and in rows.
@@ -35,18 +35,18 @@ pub struct Entry {
     pub summary: &'static str,
     /// The mesher's own parameters.
     pub parameters: &'static [Parameter],
-    /// The mesher with the given parameters, the rest at their defaults; the error names the parameter.
+    /// Makes the mesher with the given parameters and the defaults of the rest; the error names the wrong parameter.
     pub make: Make,
 }
 
 impl Entry {
-    /// All parameters: those given, and the defaults of the rest.
+    /// All parameters: the given ones, and the defaults of the rest.
     pub fn complete(&self, given: &Parameters) -> Parameters {
         complete(self.parameters, given)
     }
 }
 
-/// The parameters given, and the defaults of the others.
+/// The given parameters, and the defaults of the rest.
 pub(crate) fn complete(parameters: &[Parameter], given: &Parameters) -> Parameters {
     let mut all: Parameters = parameters
         .iter()
@@ -56,7 +56,7 @@ pub(crate) fn complete(parameters: &[Parameter], given: &Parameters) -> Paramete
     all
 }
 
-/// A parameter's value as it is written on a command line: as JSON if it is JSON, else as text.
+/// A parameter's value from its text on a command line: parsed if it is JSON, else the text itself.
 pub fn parameter_value(text: &str) -> serde_json::Value {
     serde_json::from_str(text).unwrap_or_else(|_| text.into())
 }
@@ -65,7 +65,7 @@ pub fn parameter_value(text: &str) -> serde_json::Value {
 pub struct Parameter {
     /// Field of the mesher's struct.
     pub name: &'static str,
-    /// The values it can have.
+    /// The values it takes.
     pub values: &'static str,
     /// The value if none is given.
     pub default: &'static str,
@@ -86,7 +86,7 @@ pub fn find(name: &str) -> Option<&'static Entry> {
     MESHERS.iter().find(|entry| entry.name == name)
 }
 
-/// An error that names the first parameter out of its range; each comes with its value, the least and the most it may be.
+/// Checks parameters, each given as its name, value, least and most; the error names the first that is out of range.
 fn within(ranges: &[(&str, f64, f64, f64)]) -> Result<(), String> {
     match ranges
         .iter()
@@ -107,7 +107,7 @@ fn from_parameters<M: Mesher + serde::de::DeserializeOwned + 'static>(
     Ok(Box::new(mesher))
 }
 
-/// Refuses a spacing whose Lipschitz constant is for distances inside the domain, for a method that relies on it across the
+/// Declines a spacing whose Lipschitz constant is in distances inside the domain, for a method that needs it across the
 /// outside too.
 fn refuse_geodesic(spacing: &dyn Spacing) -> Result<(), MeshError> {
     match spacing.is_geodesic() {
@@ -116,20 +116,20 @@ fn refuse_geodesic(spacing: &dyn Spacing) -> Result<(), MeshError> {
     }
 }
 
-/// Why such a method declines such a spacing.
-pub(crate) const NOT_GEODESIC: &str = "this method takes sizes on both sides of an outside gap for similar, and lfs:geodesic \
-    does not keep them so; use lfs as spacing, or the mesher biting or delaunay-refinement";
+/// The reason that such a method gives.
+pub(crate) const NOT_GEODESIC: &str = "this method needs similar sizes on the two sides of a gap outside the domain, and \
+    lfs:geodesic does not ensure that; use lfs as spacing, or the mesher biting or delaunay-refinement";
 
-/// What is asked of a mesher besides domain and spacing.
+/// What a mesher takes besides domain and spacing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// Biting constant: the target edge length at x is c_b f(x).
     pub c_b: f64,
-    /// Seed of everything random.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Threads that a mesher may use; the mesh does not depend on them.
+    /// Threads that the mesher may use; the mesh does not depend on their number.
     pub threads: usize,
-    /// When to give up.
+    /// The limits at which the mesher gives up.
     pub budget: Budget,
 }
 
@@ -155,24 +155,24 @@ pub enum MeshError {
         budget: String,
         /// Vertices placed by then.
         vertices: usize,
-        /// Where work was going on.
+        /// Where the mesher was at work.
         x: f64,
-        /// Where work was going on.
+        /// Where the mesher was at work.
         y: f64,
-        /// What to do.
+        /// What to do about it.
         advice: String,
     },
-    /// The spacing broke its promise at a point.
+    /// The spacing is not finite and positive at a point.
     #[error("spacing is {value} at ({x}, {y}): it must be finite and positive there")]
     Spacing {
-        /// What it returned.
+        /// The value it returned.
         value: f64,
         /// Where.
         x: f64,
         /// Where.
         y: f64,
     },
-    /// The spacing changes faster between two points than the constant that it promises.
+    /// The spacing is steeper between two points than its Lipschitz constant allows.
     #[error(
         "spacing is {} at ({:?}, {:?}) and {} at ({:?}, {:?}): a change of more than {alpha} times their distance, which is what \
          lipschitz() promises; limit it, or promise less",
@@ -183,10 +183,10 @@ pub enum MeshError {
         points: [crate::geometry::DVec2; 2],
         /// f there.
         values: [f64; 2],
-        /// The constant it promises.
+        /// Its Lipschitz constant.
         alpha: f64,
     },
-    /// The method cannot take this input, and why.
+    /// The method does not take this input, for the reason given.
     #[error("declined: {0}")]
     Declined(String),
     /// The points could not be triangulated.
@@ -194,19 +194,19 @@ pub enum MeshError {
     Triangulation(#[from] crate::delaunay::TriangulationError),
 }
 
-/// Times the steps of a run by the paper's names, and can note every bite for figures.
+/// Times the steps of a run by the paper's names, and can carry every bite for figures.
 #[derive(Debug, Default)]
 pub struct Trace {
     /// Steps in the order they ran.
     pub steps: Vec<(&'static str, Duration)>,
-    /// Counts that a mesher reports beside its mesh, such as bites or forced pieces.
+    /// Counts that the mesher reports beside its mesh, such as bites or forced pieces.
     pub counts: Vec<(&'static str, f64)>,
     /// Every bite in order, for figures and replays: noted only if there is a list, as in [`Trace::noting_bites`].
     pub bites: Option<Vec<Bite>>,
 }
 
 impl Trace {
-    /// One that notes every bite.
+    /// A trace that notes every bite.
     pub fn noting_bites() -> Self {
         Self {
             bites: Some(Vec::new()),
@@ -230,19 +230,19 @@ impl Trace {
 
 /// A mesh generator: a struct of its paper's parameters.
 pub trait Mesher: Send + Sync {
-    /// Whether all parameters are in their ranges; the error names the one that is not.
+    /// Checks that all parameters are in their ranges; the error names one that is not.
     fn check(&self) -> Result<(), String> {
         Ok(())
     }
 
-    /// Whose spacing sets the distance of two points: the paper's rule if the method knows no other.
+    /// Whose spacing sets the distance of two points: the paper's rule, unless the method has another.
     fn rule(&self) -> Rule {
         Rule::Earlier
     }
 
-    /// The claims of the certificate that the method guarantees with these parameters, the paper's where their hypotheses
-    /// hold. The structural claims but [`Claim::ConstrainedDelaunay`](crate::theory::Claim) hold for every method and are not
-    /// named.
+    /// The claims of the certificate that the method guarantees with these parameters; the paper's among them are
+    /// guaranteed if their hypotheses hold. The structural claims other than
+    /// [`Claim::ConstrainedDelaunay`](crate::theory::Claim) must hold for every method and are not listed.
     fn guarantees(&self) -> Vec<Guarantee> {
         Vec::new()
     }

@@ -1,4 +1,5 @@
-//! The target edge length s = c_b f, refused if f breaks its promise or coordinates cannot resolve it.
+//! The target edge length s = c_b f. An f that breaks its contract is refused, and so is an s too small for the
+//! coordinates to resolve.
 
 use super::{MeshError, Request};
 use crate::domain::Domain;
@@ -7,13 +8,13 @@ use crate::mesh::Mesh;
 use crate::spacing::Spacing;
 use std::f64::consts::SQRT_2;
 
-/// s, which all meshers take from here: equal work for all.
+/// s as every mesher evaluates it: equal work for all.
 #[derive(Clone, Copy)]
 pub(super) struct Sizing<'a> {
     pub spacing: &'a dyn Spacing,
     c_b: f64,
     smallest: f64,
-    /// The most by which rounding of coordinates can change the difference of two sizes.
+    /// How much rounding of coordinates can add to the difference of two sizes.
     slack: f64,
 }
 
@@ -28,7 +29,7 @@ impl<'a> Sizing<'a> {
         }
     }
 
-    /// The smallest s there may be: coordinates do not resolve points closer than that well enough.
+    /// The smallest s allowed: coordinates do not resolve points closer than that well enough.
     pub fn smallest(&self) -> f64 {
         self.smallest
     }
@@ -38,7 +39,7 @@ impl<'a> Sizing<'a> {
         self.c_b * self.spacing.lipschitz()
     }
 
-    /// s(x) unchecked, for points that may lie outside the domain, where f promises nothing.
+    /// s(x) without checks, for points that may lie outside the domain, where f need not be positive or finite.
     pub fn unchecked(&self, x: DVec2) -> f64 {
         self.c_b * self.spacing.at(x)
     }
@@ -60,7 +61,7 @@ impl<'a> Sizing<'a> {
         Ok(size)
     }
 
-    /// Refuses two points whose sizes, as [`Self::at`] returned them, differ by more than those of a t-Lipschitz s can. Meshers
+    /// Refuses two points whose sizes, as [`Self::at`] returned them, differ by more than a t-Lipschitz s can. Meshers
     /// call this where they rely on it: for a new vertex and those near it.
     pub fn agree(&self, points: [DVec2; 2], sizes: [f64; 2]) -> Result<(), MeshError> {
         let change = (sizes[0] - sizes[1]).abs();
@@ -78,7 +79,8 @@ impl<'a> Sizing<'a> {
         Ok(())
     }
 
-    /// [`Self::agree`] for the ends of every edge, for methods that may not find circles near each other if their sizes disagree.
+    /// [`Self::agree`] for the ends of every edge, since the search for circles nearby can miss those whose sizes do
+    /// not agree.
     pub fn agree_along_edges(&self, mesh: &Mesh) -> Result<(), MeshError> {
         let sizes: Vec<f64> = mesh.points.iter().map(|&x| self.at(x)).collect::<Result<_, _>>()?;
         for corners in &mesh.triangles {

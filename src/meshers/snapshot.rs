@@ -1,4 +1,4 @@
-//! What figures and replays need to know about every bite.
+//! What figures and replays need of every bite.
 
 use crate::geometry::DVec2;
 
@@ -11,9 +11,10 @@ pub struct Bite {
     pub radius: f64,
     /// Why it was bitten there.
     pub reason: Reason,
-    /// Front vertices that it made. Those between boundary circles come with the last of these, when the front opens.
+    /// Front vertices that it made. Those between boundary circles belong to the last boundary circle, since the front
+    /// opens after it.
     pub appeared: Vec<Waiting>,
-    /// Serial numbers of the front vertices that it bit away; if its centre was one, that is the first.
+    /// Serial numbers of the front vertices that it bit away; if its centre was one of them, that is the first.
     pub gone: Vec<u32>,
 }
 
@@ -38,21 +39,21 @@ impl Bite {
     }
 }
 
-/// Why a circle is bitten, with the paper's labels of §6.2.
+/// Why a circle is bitten where it is, with the paper's labels of §6.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason {
     /// An input vertex (vertex protection).
     InputVertex,
     /// A corner is cut off there.
     CutCorner,
-    /// Label B(p₁): where an earlier circle leaves the segment with this number (edge protection).
+    /// Label B(p₁): the point where the segment leaves an earlier circle (edge protection).
     Progressive {
-        /// Which segment.
+        /// The number of the segment.
         segment: usize,
     },
-    /// Label M(p₁, p₂): in the middle of q₁ and q₂, where two earlier circles leave the segment with this number.
+    /// Label M(p₁, p₂): the middle of q₁ and q₂, the points where the segment leaves two earlier circles.
     Middle {
-        /// Which segment.
+        /// The number of the segment.
         segment: usize,
         /// q₁ and q₂.
         between: [DVec2; 2],
@@ -64,12 +65,12 @@ pub enum Reason {
 /// A front vertex that waits for its turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Waiting {
-    /// Its number: front vertices are counted as they appear.
+    /// Its number, in the order in which front vertices appear.
     pub serial: u32,
     /// Where it is.
     pub point: DVec2,
     /// The two bites on whose circles it lies.
     pub circles: [u32; 2],
-    /// The smaller, the earlier; equal ranks by serial number. 0 if the order has no ranks.
+    /// The smallest rank is bitten first, equal ranks by serial number. 0 if the order has no ranks.
     pub rank: f64,
 }

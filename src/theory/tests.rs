@@ -35,7 +35,8 @@ fn without_t_the_rules_agree_and_from_one_on_nothing_is_above() {
 
 #[test]
 fn nothing_that_a_point_eats_holds_more_than_promised() {
-    // Along a ray g falls with t to where it must grow, with t, for the border at `end` to be eaten: by quadrature.
+    // By quadrature: along a ray g falls with slope t, then grows with slope t, so that the border of what is eaten is
+    // at `end`.
     for t in [0.1, 0.25, 0.5, 0.75] {
         let most = at(Rule::Later, t).most_eaten();
         let held = |end: f64| {

@@ -20,7 +20,7 @@ pub(super) fn vertex_protection(front: &mut Front) -> Result<(), MeshError> {
         })
 }
 
-/// Bites where corners are cut off, and returns for each segment those centres on it with their distances from its first
+/// Bites where corners are cut off, and returns for each segment the centres on it, with their distances from its first
 /// end.
 fn corner_protection(front: &mut Front) -> Result<Vec<Vec<(f64, u32)>>, MeshError> {
     let (domain, cuts) = (front.domain, front.cuts);
@@ -42,11 +42,12 @@ fn corner_protection(front: &mut Front) -> Result<Vec<Vec<(f64, u32)>>, MeshErro
     Ok(placed)
 }
 
-/// Bites along the input segments until every point of them is covered, and returns the pieces the centres cut them into.
+/// Bites along the input segments until every point of them is covered, and returns the pieces into which the centres
+/// cut them.
 ///
-/// The uncovered gaps of all segments take turns, and a gap is bitten at its two ends alternately, so that the boundary is
-/// eaten in layers, starting at the vertices. Every point is tested against all circles bitten so far, those of other
-/// segments too.
+/// The uncovered gaps of all segments take turns, and a gap is bitten at its two ends in turn, so that the boundary is
+/// eaten in layers from the vertices inward. Every point is tested against all circles bitten so far, including those
+/// of other segments.
 pub(super) fn edge_protection(front: &mut Front) -> Result<Vec<Piece>, MeshError> {
     let segments = 0..front.domain.segments().len();
     let mut cuts = corner_protection(front)?;
@@ -63,8 +64,8 @@ pub(super) fn edge_protection(front: &mut Front) -> Result<Vec<Piece>, MeshError
 }
 
 impl Gap {
-    /// The gap with its low end q₁ moved out of the circles that cover it, and the biting circle there; none if nothing is
-    /// left of it.
+    /// The gap with its low end q₁ moved out of the circles that cover it, and the biting circle there; none if nothing
+    /// is left of it.
     fn trimmed(mut self, front: &Front) -> Result<Option<(Self, Disc)>, MeshError> {
         while self.low <= self.high {
             let circle = self.circle_at(front, self.low)?;
@@ -86,9 +87,9 @@ impl Gap {
 
     /// Step 4: the next bite of an uncovered gap, as its position, circle and reason, given the circle at q₁.
     ///
-    /// Let q₂ be the next covered point of the segment. If a bite at q₁ does not reach it, bite at q₁; else, if a bite at q₂
-    /// does not reach q₁, bite at q₂; else bite at the middle of q₁ q₂. If the circle over q₂ ends within the gap, the part
-    /// behind it is queued as a gap of its own.
+    /// Let q₂ be the next covered point of the segment. If a bite at q₁ does not reach q₂, bite at q₁; else, if a bite
+    /// at q₂ does not reach q₁, bite at q₂; else bite at the middle of q₁ q₂. If the circle that covers q₂ ends within
+    /// the gap, the part behind it is queued as a gap of its own.
     fn next_bite(
         &self,
         front: &Front,
@@ -119,7 +120,8 @@ impl Gap {
         Ok((middle, self.circle_at(front, middle)?, reason))
     }
 
-    /// q₂, the next covered point behind the low end within reach of a bite there, and where the circle over it ends.
+    /// q₂, the next covered point behind the low end among the circles that a bite there meets, and the point where the
+    /// segment leaves the circle that covers q₂.
     fn far_side(&self, front: &Front, at_low: Disc) -> Result<(f64, f64), MeshError> {
         let mut nearest = (self.high, self.high);
         let mut near = Vec::new();

@@ -1,12 +1,12 @@
 //! The front: what biting has left uncovered, as arcs of biting circles with their vertices.
 //!
 //! # Idea
-//! The front is the boundary of what no biting circle covers yet. Once the input boundary is bitten it consists of arcs
-//! of biting circles only, and two neighbouring arcs meet at a front vertex. So the front is kept as its vertices, each
-//! filed under its two circles; the arcs of a circle run between the vertices filed under it. A new bite meets a
-//! bounded number of circles, all of them near and of similar radius ([`DiscGrid`]). Vertices filed under those and inside
-//! the bite are removed, and the points where the new circle crosses those circles are the new vertices, if no other circle
-//! covers them.
+//! The front is the boundary of what no biting circle covers yet. Once the input boundary is bitten, the front consists
+//! of arcs of biting circles only, and two neighbouring arcs meet at a front vertex. So the front is kept as its
+//! vertices, each filed under its two circles; the arcs of a circle run between the vertices filed under it. A new bite
+//! meets a bounded number of circles, all of them near and of similar radius ([`DiscGrid`]). The vertices filed under
+//! those circles and inside the bite are removed. The points where the new circle leaves those circles become new
+//! vertices, unless another circle covers them.
 //!
 //! # Cost
 //! O(1) per bite, however graded the spacing is; nothing is scanned globally or rebuilt.
@@ -29,9 +29,9 @@ use crate::theory::Rule;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrontVertex {
     pub point: DVec2,
-    /// g there by the rule of the later point, under which all that are nearer have eaten it.
+    /// By the rule of the later point, g there: every bitten point nearer than that has eaten it.
     pub reach: Option<f64>,
-    /// The two circles.
+    /// The two circles that meet there.
     pub discs: [u32; 2],
     /// Their centres, relative to the point.
     pub centres: [DVec2; 2],
@@ -43,7 +43,7 @@ impl FrontVertex {
         cosine(self.centres[0], self.centres[1])
     }
 
-    /// 2 |area| / Σ edge² of the triangle of the vertex and its two centres: largest, 1 / (2 √3), where equilateral.
+    /// 2 |area| / Σ edge² of the triangle of the vertex and its two centres: at most 1 / (2 √3), if equilateral.
     pub fn shape_with_centres(&self) -> f64 {
         let [first, second] = self.centres;
         let squares = first.length_squared() + second.length_squared() + first.distance_squared(second);
@@ -63,7 +63,8 @@ struct Slot {
     discs: [u32; 2],
     /// The next vertex under each of the two circles.
     next: [u32; 2],
-    /// Distinguishes this vertex from earlier ones in the same slot; [`NONE`] once bitten away.
+    /// The number of this vertex, by which to tell it from earlier ones in the same slot; [`NONE`] once it is bitten
+    /// away.
     serial: u32,
 }
 
@@ -72,9 +73,9 @@ const NONE: u32 = u32::MAX;
 /// All biting circles so far and the front they leave.
 pub(super) struct Front<'a> {
     pub domain: &'a Domain,
-    /// The corners that are left out.
+    /// The corners that are cut off.
     pub cuts: &'a Cuts,
-    /// What circles cannot see across.
+    /// The notches, across which circles cover nothing.
     notches: &'a Notches,
     /// For each circle, whether it may hold points that its centre cannot see.
     pub beside_notch: Vec<bool>,
@@ -84,7 +85,7 @@ pub(super) struct Front<'a> {
     pub rule: Rule,
     /// The biting circles, in the order of bites.
     pub bitten: DiscGrid,
-    /// How many of them are centred on the input boundary; they come first.
+    /// The number of them that are centred on the input boundary; they come first.
     boundary_count: u32,
     /// First front vertex filed under each circle.
     first_vertex: Vec<u32>,
@@ -93,10 +94,10 @@ pub(super) struct Front<'a> {
     serials: u32,
     queue: Queue,
     near: Vec<Near>,
-    /// The two circles that the vertex taken last lies on.
+    /// The two circles on which the vertex taken last lies.
     parents: [u32; 2],
     monitor: Monitor,
-    /// The list of bites, if they are noted.
+    /// The list of all bites, if they are to be noted.
     pub log: Option<Vec<Bite>>,
 }
 
@@ -133,33 +134,34 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// c_b f(x), refused if f breaks its promise or the coordinates cannot resolve it.
+    /// c_b f(x). Refused if f breaks its contract or the coordinates cannot resolve it.
     pub fn radius_at(&self, x: DVec2) -> Result<f64, MeshError> {
         self.radii.at(x)
     }
 
-    /// Bites at a point of the input boundary and returns the number of the mesh vertex. The arcs follow in
-    /// [`Front::open`], once the boundary is covered.
+    /// Bites at a point of the input boundary and returns the number of the mesh vertex. [`Front::open`] adds the arcs,
+    /// once the boundary is covered.
     pub fn bite_boundary(&mut self, disc: Disc, reason: Reason) -> Result<u32, MeshError> {
-        // Vertices that are cut off are mesh vertices too, but get no circle.
+        // Vertices cut off are mesh vertices too, but get no circle.
         Ok(self.insert(disc, reason)? + self.cuts.count as u32)
     }
 
-    /// The mesh vertices: the input's, then all other centres in the order they were bitten.
+    /// The mesh vertices: the input's, then all other centres in the order in which they were bitten.
     pub fn centres(&self) -> Vec<DVec2> {
         let input = self.domain.vertices();
         let others = self.bitten.discs().skip(input.len() - self.cuts.count);
         input.iter().copied().chain(others.map(|disc| disc.centre)).collect()
     }
 
-    /// Whether no notch lies between the centre of a bitten disc and a point that it holds and, if distances are measured
-    /// inside the domain, the disc reaches the point.
+    /// Whether a bitten disc covers a point that it holds: no notch stands between its centre and the point and, if
+    /// distances are measured inside the domain, the disc reaches the point.
     pub fn sees(&self, id: u32, point: DVec2) -> bool {
         let is_parted = self.beside_notch[id as usize] && self.notches.part(self.bitten.disc(id).centre, point);
         !is_parted && self.inside.as_ref().is_none_or(|inside| inside.reaches(id, point))
     }
 
-    /// The front once the input boundary is covered: the vertices between boundary circles inside the domain.
+    /// Starts the front once the input boundary is covered: its vertices are those between boundary circles inside the
+    /// domain.
     pub fn open(&mut self) -> Result<(), MeshError> {
         self.boundary_count = self.bitten.len() as u32;
         for id in 0..self.boundary_count {
@@ -186,7 +188,7 @@ impl<'a> Front<'a> {
         None
     }
 
-    /// Bites at the front vertex `x`: removes the part of the front inside the new circle and introduces its arcs.
+    /// Bites at the front vertex `x`: removes the part of the front inside the new circle, and adds the circle's arcs.
     pub fn bite(&mut self, x: DVec2) -> Result<(), MeshError> {
         let disc = Disc {
             centre: x,
@@ -216,7 +218,7 @@ impl<'a> Front<'a> {
     }
 
     /// Removes the front vertices inside `disc`. Both circles of such a vertex meet `disc`, so both are in `near`: the
-    /// vertex leaves one list at the first visit and is freed at the second.
+    /// first visit takes the vertex out of one list, the second takes it out of the other and frees its slot.
     fn remove_vertices(&mut self, disc: Disc, id: u32, near: &[Near]) {
         for other in near {
             let mut before = None;
@@ -245,8 +247,8 @@ impl<'a> Front<'a> {
         }
     }
 
-    /// Adds the points where the circle `id` leaves the circles `near` (those that `wanted` admits) and that neither
-    /// another circle covers nor the domain leaves out.
+    /// Adds the points where the circle `id` leaves the circles `near` (those that `wanted` admits), unless another
+    /// circle covers them or they lie outside what is to be bitten.
     fn add_vertices(
         &mut self,
         disc: Disc,
@@ -322,8 +324,8 @@ impl<'a> Front<'a> {
         Ok(())
     }
 
-    /// Whether a disc of `near` other than the one at `except` covers the point. Reaches are taken a little smaller, so that a
-    /// vertex on several circles at once is kept.
+    /// Whether a disc of `near` other than the one at `except` covers the point. Radii count as a little smaller than
+    /// they are, so that a vertex on several circles at once is kept.
     fn is_covered(&self, relative: DVec2, point: DVec2, reach: Option<f64>, near: &[Near], except: usize) -> bool {
         near.iter().enumerate().any(|(index, other)| {
             let shrunk = reach.unwrap_or(other.radius) * (1.0 - tolerance::COVERED);

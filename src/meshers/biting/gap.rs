@@ -1,4 +1,4 @@
-//! A part of a segment that may be uncovered, and what points eat of it by either rule.
+//! A part of a segment that may be uncovered, and what points eat of it, by either rule.
 
 use crate::geometry::near::{Disc, Near};
 use crate::geometry::{DVec2, tolerance};
@@ -17,7 +17,7 @@ pub(super) struct Gap {
     length: f64,
     /// Whether `start` is the segment's second vertex.
     reversed: bool,
-    /// The part, by distance from `start`: its end q₁ at which it is bitten, and its far end.
+    /// The part, by distance from `start`: its end q₁, at which it is bitten next, and its far end.
     pub low: f64,
     pub high: f64,
 }
@@ -84,13 +84,14 @@ impl Gap {
         (half_squared > 0.0).then(|| (along - half_squared.sqrt(), along + half_squared.sqrt()))
     }
 
-    /// Where the centre of a disc near `circle` is: along the segment, and beside it.
+    /// Where the centre of a disc near `circle` is: its position along the segment, and its distance from the segment's
+    /// line, with a sign.
     fn place(&self, circle: Disc, near: &Near) -> (f64, f64) {
         let to_centre = circle.centre + near.offset - self.start;
         (to_centre.dot(self.direction), to_centre.perp_dot(self.direction))
     }
 
-    /// The segment's line seen from the point at `along`, `across`, which eats only a `share` of what it would.
+    /// The segment's line relative to the point at `along`, `across`, with g taken as `share` of what it is.
     fn line_past<'a>(&self, front: &Front<'a>, (along, across): (f64, f64), share: f64, guess: f64) -> PassingLine<'a> {
         PassingLine {
             sizing: front.radii,
@@ -102,8 +103,9 @@ impl Gap {
         }
     }
 
-    /// The position where the gap leaves what the centre of `near` has eaten, given that this holds the low end, the centre of
-    /// `circle`. It is past the high end if the gap does not leave, and not above the low end if rounding puts that outside.
+    /// The position where the gap leaves what the centre of `near` has eaten. That holds the centre of `circle`, at the
+    /// low end of the gap. The position is past the high end if the gap does not leave it, and not above the low end
+    /// if, by rounding, the gap has left it already.
     pub fn exit(&self, front: &Front, circle: Disc, near: &Near) -> Result<f64, MeshError> {
         match front.rule {
             Rule::Earlier => Ok(self.chord(circle, near).map_or(self.low, |(_, exit)| exit)),
@@ -116,7 +118,8 @@ impl Gap {
         }
     }
 
-    /// The first stretch of the gap that the centre of `near` has eaten, if it is not the one that begins before the gap.
+    /// The first stretch of the gap that the centre of `near` has eaten. By the rule of the later point, a stretch that
+    /// begins before the gap is left out.
     pub fn eaten(&self, front: &Front, circle: Disc, near: &Near) -> Result<Option<(f64, f64)>, MeshError> {
         match front.rule {
             Rule::Earlier => Ok(self.chord(circle, near)),
@@ -132,7 +135,7 @@ impl Gap {
         }
     }
 
-    /// What a bite leaves of the gap, seen from the other end, where it is bitten next.
+    /// What a bite leaves of the gap; each part is bitten at its other end next.
     pub fn without(
         self,
         front: &Front,

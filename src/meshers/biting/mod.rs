@@ -2,62 +2,66 @@
 //!
 //! # Idea
 //! Put a point on the front, remove ("bite away") the circle of radius c_b f around it from what is left of the domain,
-//! repeat until nothing is left. No later point falls into an earlier circle, so the points are well spaced; every
+//! and repeat until nothing is left. No later point falls into an earlier circle, so the points are well spaced; every
 //! point of the domain is in some circle, so there are no gaps; and the Delaunay triangulation of such points is well
 //! shaped.
 //!
 //! # Steps
 //! 1. the control spacing is prepared beforehand ([`crate::spacing`]);
-//! 2. the initial front is the boundary of the domain ([`front::Front::new`]); corners are cut off and the spacing is held down
-//!    beside them ([`beyond::corners`]);
+//! 2. the initial front is the boundary of the domain ([`front::Front::new`]); corners are cut off, and the spacing is
+//!    held down beside them ([`beyond::corners`]);
 //! 3. [`boundary::vertex_protection`] bites every input vertex;
 //! 4. [`boundary::edge_protection`] bites along the input segments until they are covered;
 //! 5. [`interior::interior_biting`] bites at front vertices until the front is empty;
 //! 6. [`triangulate`] makes the constrained Delaunay triangulation of the centres.
 //!
 //! # Guarantee
-//! With t = α c_b, each a check of the certificate: packing circles of radius c_b f / (2 + t) are disjoint (Lemma 5.4,
-//! `packing-disjoint`); every point of the domain is covered by a biting circle (Theorem 5.5, `coverage`); the
-//! smallest angle is at least asin(1/2 − t) (Theorem 6.8, `min-angle`); nearest-neighbour distances are within
-//! constants of f (Lemmas 5.7 and 5.8, `nn-vertex-*`, `nn-point-*`). What each needs besides is in [`crate::quality`]:
-//! the angle bound of the paper to the letter, for one, needs c_b + t ≤ 1, which the paper does not say. With corners
-//! cut off, every triangle that touches no input angle under 60° meets the angle bound (`min-angle-beyond-corners`), and no
-//! angle of the others is below the smallest input angle there (`corner-angles`); the bounds by f hold where nothing was cut
-//! or held down.
+//! With t = α c_b, the paper proves four things, each a check of the certificate:
+//! * packing circles of radius c_b f / (2 + t) are disjoint (Lemma 5.4, `packing-disjoint`);
+//! * every point of the domain is covered by a biting circle (Theorem 5.5, `coverage`);
+//! * the smallest angle is at least asin(1/2 − t) (Theorem 6.8, `min-angle`);
+//! * nearest-neighbour distances are within constants of f (Lemmas 5.7 and 5.8, `nn-vertex-*`, `nn-point-*`).
 //!
-//! With `rule=later` two points keep the distance that the later of them asks for, and the smallest angle is at least
-//! asin((1 − t) / 2). Without a boundary that is known; [`beyond::rule`] has the theorem with a boundary, its proof and the other
-//! bounds, to which the certificate then holds the mesh.
+//! [`crate::quality`] has what each needs besides: for one, the angle bound of the paper to the letter needs c_b + t ≤
+//! 1, which the paper does not say. By default, with corners cut off and circles held apart that would meet low, every
+//! triangle that touches no input angle under 60° meets the angle bound (`min-angle-beyond-corners`), and no angle of
+//! the others is below the smallest input angle there (`corner-angles`). The claims that compare with f are guaranteed
+//! where nothing is cut off or held down: in plain cases ([`Guarantee::plain`](crate::theory::Guarantee)), and to the
+//! letter.
 //!
-//! With `lfs:geodesic` circles bite what they reach inside the domain only, and the same bounds hold: [`beyond::inside`] has
-//! the argument.
+//! With `rule=later` two points keep the distance that the spacing at the later one asks for, and the smallest angle is
+//! at least asin((1 − t) / 2). For domains without a boundary this is known. [`beyond::rule`] has the theorem with a
+//! boundary, its proof, and the other bounds; the certificate then checks these in place of the paper's.
+//!
+//! With `lfs:geodesic` circles bite only what they reach inside the domain, and the same bounds hold:
+//! [`beyond::inside`] has the proof.
 //!
 //! # Cost
-//! O(1) per bite plus one evaluation of f, plus a point-in-domain query for front vertices next to the boundary;
-//! O(n log n) for the triangulation. By the rule of the later point a bite takes about ten more evaluations of f, because its
-//! front vertices are roots.
+//! A bite takes O(1), with one evaluation of f and a point-in-domain query for each front vertex next to the boundary.
+//! The triangulation takes O(n log n). By the rule of the later point a bite takes about ten more evaluations of f,
+//! since its front vertices are found as roots.
 //!
 //! # Deviations from the paper (and why)
-//! * The paper does not say which front vertex is bitten next: [`Order`] is a parameter. Its default, the largest spacing
-//!   first, has the largest smallest angles and nearly the fewest triangles on lfs in the sweep.
-//! * The paper leaves open the order along the boundary: gaps are bitten at their two ends in turn.
-//! * A middle circle closes every gap, also one of length 0 where two circles touch: without it the front would have
-//!   a vertex on the boundary itself, which Lemmas 6.3 and 6.4 exclude without saying so.
-//! * The triangulation is constrained: the paper does not prove that every boundary piece is a Delaunay edge. Those that
-//!   are not are counted in [`Mesh::forced_pieces`].
-//!   They need no acute angle: a middle piece on an inner segment can be 1.5 radii long, and vertices √7/4 radii above and
-//!   below its middle lie in its diametral circle.
-//! * Input angles under 90°, which the paper excludes, are cut off, as §5.1 suggests without saying how, and given back
-//!   ([`beyond::corners`]); and circles do not cover across an angle under 90° that opens to the outside
-//!   ([`beyond::notches`]). With [`Corners::Bite`] they are bitten like any other: a point of one segment that a circle of
-//!   another covers already gets no circle of its own.
-//! * Where the circles of a segment's two ends would cover it between them and meet low, which Lemma 6.4 does not see, they
-//!   are held apart ([`HeadOn::Part`]), so that the angle bound needs no c_b + t ≤ 1.
+//! * The paper does not say which front vertex is bitten next, so [`Order`] is a parameter. On lfs in the sweep its
+//!   default, the largest spacing first, gives the largest smallest angles and nearly the fewest triangles.
+//! * The paper leaves open the order along the boundary. Here gaps are bitten at their two ends in turn.
+//! * A middle circle closes every gap, even one of length 0 where two circles touch. Without it the front would have a
+//!   vertex on the boundary itself, which Lemmas 6.3 and 6.4 exclude without saying so.
+//! * The triangulation is constrained, since the paper does not prove that every boundary piece is a Delaunay edge.
+//!   [`Mesh::forced_pieces`] counts the pieces that are not. They occur without acute angles too: a middle piece on an
+//!   inner segment can be 1.5 radii long, and vertices √7/4 radii above and below its middle lie in its diametral
+//!   circle.
+//! * Input angles under 90°, which the paper excludes, are cut off, as §5.1 suggests without saying how, and come back
+//!   as triangles of their own ([`beyond::corners`]). Across an angle under 90° that opens to the outside, circles
+//!   cover nothing ([`beyond::notches`]). With [`Corners::Bite`] such angles are bitten like any other: a point of one
+//!   segment that a circle of another already covers gets no circle of its own.
+//! * If the circles of a segment's two ends would together cover it and meet low, a case that Lemma 6.4 overlooks, they
+//!   are held apart ([`HeadOn::Part`]). The angle bound then holds without c_b + t ≤ 1.
 //!
 //! # Reference
-//! X.-Y. Li, S.-H. Teng, A. Üngör, "Biting: Advancing Front Meets Sphere Packing". For `rule=later`: S. A. Mitchell, A. Rand,
-//! M. S. Ebeida, C. Bajaj, "Variable radii Poisson-disk sampling", CCCG 2012, where it is called current-disks and has the
-//! bound (1 − t) / 2 for domains without a boundary.
+//! X.-Y. Li, S.-H. Teng, A. Üngör, "Biting: Advancing Front Meets Sphere Packing". For `rule=later`: S. A. Mitchell, A.
+//! Rand, M. S. Ebeida, C. Bajaj, "Variable radii Poisson-disk sampling", CCCG 2012, who call the rule current-disks and
+//! prove the bound (1 − t) / 2 for domains without a boundary.
 
 // The steps are private; their links work in `cargo doc --document-private-items`.
 #![allow(rustdoc::private_intra_doc_links)]
@@ -85,22 +89,24 @@ use beyond::inside::Inside;
 use beyond::notches::Notches;
 use serde::{Deserialize, Serialize};
 
-/// How input angles under 90° are treated, which the paper's theorems exclude.
+/// How to treat input angles under 90°, which the paper's theorems exclude.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Corners {
-    /// They are bitten like any other, and circles cover across a notch: the paper to the letter.
+    /// As any other angle, and circles cover across a notch: the paper to the letter.
     Bite,
-    /// Those inside are cut off before biting, and given back; across those outside, no circle covers anything.
+    /// Those inside are cut off before biting, and come back as triangles of their own; across those outside, no circle
+    /// covers anything.
     #[default]
     Cut,
 }
 
-/// How a segment is treated that the circles of its two ends cover while meeting low, which Theorem 6.8 silently excludes.
+/// How to treat a segment that the circles of its two ends together cover while meeting low, which Theorem 6.8 silently
+/// excludes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeadOn {
-    /// They are left as they are: the paper to the letter.
+    /// As any other segment: the paper to the letter.
     Leave,
     /// The two circles are made smaller, and a third is put between them.
     #[default]
@@ -113,15 +119,15 @@ pub enum HeadOn {
 pub struct Biting {
     /// Who bites whom. The default is the paper's.
     pub rule: Rule,
-    /// The order of bites. The paper leaves it open; the default is what `sweep` found best.
+    /// The order of bites. The paper leaves it open; the default is the best one in the sweep.
     pub order: Order,
-    /// How input angles under 90° are treated, which the paper excludes.
+    /// How to treat input angles under 90°, which the paper excludes.
     pub corners: Corners,
-    /// How two circles are treated that cover a segment between them and meet low.
+    /// How to treat two circles that together cover a segment and meet low.
     pub head_on: HeadOn,
 }
 
-/// The parameters by which biting is the paper to the letter.
+/// The parameters with which biting is the paper's, without anything of ours.
 pub const TO_THE_LETTER: &[(&str, &str)] = &[("corners", "bite"), ("head_on", "leave")];
 
 pub(super) const ENTRY: Entry = Entry {
@@ -132,25 +138,25 @@ pub(super) const ENTRY: Entry = Entry {
             name: "rule",
             values: "earlier, later",
             default: "earlier",
-            help: "whose spacing sets the distance that two points keep: that of the one bitten first (§5.1), or of the other",
+            help: "whose spacing sets the distance that two points keep: that of the one bitten earlier (§5.1), or of the later one",
         },
         Parameter {
             name: "order",
             values: "fifo, lifo, sharpest, flattest, equilateral, smallest, largest, random",
             default: "largest",
-            help: "which front vertex is bitten next (open in §5.1; the default is what the sweep found best)",
+            help: "which front vertex is bitten next (open in §5.1; the default is the best one in the sweep)",
         },
         Parameter {
             name: "corners",
             values: "cut, bite",
             default: "cut",
-            help: "whether input angles under 90° are cut off first and given back (§5.1), or bitten like any other",
+            help: "whether input angles under 90° are cut off first and come back as triangles (§5.1), or are bitten like any other",
         },
         Parameter {
             name: "head_on",
             values: "part, leave",
             default: "part",
-            help: "whether two circles that cover a segment between them but meet low are made smaller, a third between them",
+            help: "whether two circles that together cover a segment but meet low are made smaller, with a third between them",
         },
     ],
     make: from_parameters::<Biting>,
@@ -203,7 +209,7 @@ impl Biting {
     }
 }
 
-/// What holds if biting uses the spacing that it was given and every circle: in plain cases, or to the letter.
+/// What holds if biting uses the spacing that it was given and leaves out no circle: in plain cases, or to the letter.
 const OF_WHOLE_BITES: [Claim; 8] = [
     Claim::PackingDisjoint,
     Claim::Coverage,

@@ -1,7 +1,7 @@
 //! The order of bites: which front vertex comes next.
 //!
-//! The paper leaves it open ("a sharpest nose", §5.1), and every bound holds for every order; the order decides how good the
-//! mesh is beyond the bounds.
+//! The paper leaves it open ("a sharpest nose", §5.1). Every bound holds for every order, but the quality of the meshes
+//! differs.
 
 use crate::meshers::biting::front::FrontVertex;
 use rand::{RngExt, SeedableRng};
@@ -47,7 +47,7 @@ impl Order {
     ];
 }
 
-/// A front vertex in the queue: its slot in the front, and the serial number that shows whether it is still there.
+/// A front vertex in the queue: its slot in the front, and its serial number, by which to check that it is still there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Ticket {
     pub serial: u32,
@@ -72,8 +72,8 @@ impl Queue {
         }
     }
 
-    /// Adds a front vertex and returns its rank, 0 if the order has none; `size` returns the spacing there, and is called only if
-    /// the order ranks by it.
+    /// Adds a front vertex and returns its rank, 0 if the order has none; `size` evaluates the spacing there, and is
+    /// called only if the order ranks by it.
     pub fn push(&mut self, ticket: Ticket, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
         match self {
             Self::Fifo(queue) => queue.push_back(ticket),
@@ -99,11 +99,11 @@ impl Queue {
     }
 }
 
-/// The unit of ranks, which are whole numbers.
+/// Ranks are whole multiples of this.
 pub(super) const RANK_STEP: f64 = 1.0 / (1 << 30) as f64;
 
-/// The smaller, the earlier. Ranks are rounded to 2⁻³⁰, so that rounding noise does not decide where the spacing is uniform, and
-/// vertices of equal rank are bitten in the order in which they came.
+/// The smallest rank is bitten first. Ranks are rounded to 2⁻³⁰, so that rounding errors do not decide where spacing is
+/// uniform: vertices of equal rank are bitten first come, first bitten.
 fn rank(order: Order, vertex: &FrontVertex, size: impl FnOnce() -> f64) -> i64 {
     let value = match order {
         Order::Sharpest => vertex.cosine_at_front(),

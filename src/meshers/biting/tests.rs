@@ -38,7 +38,7 @@ fn square() -> Domain {
         .expect("a valid domain")
 }
 
-/// A spacing from its SPEC, not capped by lfs.
+/// The spacing of a SPEC, not capped by lfs.
 fn uncapped(domain: &Domain, spec: &str, alpha: f64) -> std::sync::Arc<dyn Spacing> {
     let options = Options {
         lfs_cap: false,
@@ -151,7 +151,7 @@ fn a_spacing_too_steep_is_declined() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
-    /// Packing and coverage need nothing of the domain: any spacing, any order, any seed.
+    /// Packing and coverage hold on any domain, for any spacing and order.
     #[test]
     fn packing_and_coverage_hold_for_any_spacing_and_order(
         low in 0.02..0.3f64,
@@ -170,7 +170,7 @@ proptest! {
     }
 }
 
-/// The mesh with corners cut off, judged, and what was counted.
+/// The mesh with corners cut off, its certificate, and the counts of the run.
 fn cut(domain: &Domain, c_b: f64) -> (Mesh, crate::quality::Certificate, Trace) {
     let case = Case::new(domain.clone(), "lfs", 0.25, c_b).expect("lfs");
     let mut trace = Trace::default();
@@ -181,7 +181,7 @@ fn cut(domain: &Domain, c_b: f64) -> (Mesh, crate::quality::Certificate, Trace) 
     (mesh, certificate, trace)
 }
 
-/// The smallest angle of the mesh in degrees, and how many triangles there are at each input vertex.
+/// The smallest angle of the mesh in degrees, and the number of triangles at each input vertex.
 fn angles_and_degrees(mesh: &Mesh) -> (f64, Vec<usize>) {
     let mut degrees = vec![0; mesh.input_vertices];
     let mut smallest = f64::INFINITY;
@@ -250,7 +250,7 @@ fn case(name: &str, spec: &str, t: f64, c_b: f64) -> Case {
     Case::new(domain, spec, t, c_b).expect("a spacing")
 }
 
-/// Certifies the default of a domain with corners of every kind, by name, spacing and pair.
+/// Certifies the mesh of the default parameters on a domain with corners, for a spacing, t and c_b.
 fn keeps_its_bounds(name: &str, spec: &str, t: f64, c_b: f64) {
     let case = case(name, spec, t, c_b);
     let mesh = case.mesh(&Biting::default()).expect("a mesh");
@@ -271,11 +271,11 @@ fn found_cases_keep_their_bounds() {
     keeps_its_bounds("random-pslg:kind=fan,seed=500", "expr:0.1", 0.25, 0.25);
     // A notch of 15° whose sides are 1e-6 long, where coordinates are 0.5.
     keeps_its_bounds("random-simple:n=67,seed=150", "lfs", 0.25, 0.25);
-    // A vertex of a notch is seen by the circle across it, the segment behind is not.
+    // A centre across a notch sees the notch's vertex, but not the segment behind it.
     keeps_its_bounds("random-simple:n=77,seed=92", "lfs", 0.25, 0.75);
     // Fans between notches of one vertex.
     keeps_its_bounds("random-pslg:kind=fan,seed=4", "lfs", 0.25, 0.75);
-    // Circles of a segment's ends that meet low, where c_b + t is above 1.
+    // Circles of a segment's ends that meet low, since c_b + t is above 1.
     keeps_its_bounds("l-shape", "lfs", 0.25, 1.0);
 }
 

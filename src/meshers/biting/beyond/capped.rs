@@ -4,8 +4,8 @@ use crate::geometry::DVec2;
 use crate::geometry::segments::SegmentIndex;
 use crate::spacing::Spacing;
 
-/// A bound of s = c_b f along a line segment: at most `size + slope · y` at distance y from its start, and growing with t
-/// away from the line segment.
+/// An upper bound of s = c_b f along a line segment: `size + slope · y` at distance y from its start, and growing with
+/// slope t away from the line segment.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::meshers::biting) struct Cap {
     pub start: DVec2,
@@ -53,7 +53,7 @@ pub(in crate::meshers::biting) struct Capped<'a> {
 }
 
 impl<'a> Capped<'a> {
-    /// `t` at least that of `inner`, unless there are no caps.
+    /// Caps `inner`. `t` must be at least that of `inner`, unless there are no caps.
     pub fn new(inner: &'a dyn Spacing, c_b: f64, t: f64, caps: Vec<Cap>) -> Self {
         let ends = |cap: &Cap| [cap.start, cap.start + cap.direction * cap.length];
         Self {
@@ -77,7 +77,7 @@ impl Spacing for Capped<'_> {
         let inner = self.inner.at(x);
         let mut least = self.c_b * inner;
         let mut is_capped = false;
-        // A cap farther away than that is above s whatever its slope.
+        // A cap farther away than that is above s, whatever its slope.
         let reach = |least: f64| (least - self.smallest) / self.t;
         self.index.nearest_first(x, reach(least), |cap, _| {
             let size = self.caps[cap].at(x, self.t);
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
     use crate::spacing::Uniform;
 
-    /// The least of a cap's values over many of its points, by the slow way.
+    /// The least of a cap's values over many of its points, by a loop.
     fn slow(cap: &Cap, x: DVec2, t: f64) -> f64 {
         let values = (0..=10_000).map(|k| {
             let y = cap.length * f64::from(k) / 10_000.0;

@@ -2,26 +2,27 @@
 //! from meeting low.
 //!
 //! # Idea
-//! Where an angle under 90° opens into the domain at an input vertex v, every segment of v is bitten at distance r from
-//! v, v itself is not bitten, and the triangles of v and two neighbouring cut points are left out of what is to be
-//! bitten. Their bases, the cut edges, form angles above 90° with the segments, so that no small angle is left in the
-//! rest. Where v has other angles besides, points at distance r are put between their segments too ([`fan`]).
+//! If an angle under 90° opens into the domain at an input vertex v, every segment of v is bitten at distance r from v,
+//! and v itself is not bitten. The triangles of v and two neighbouring cut points are left out of what is to be bitten.
+//! Their bases, the cut edges, form angles above 90° with the segments, so no small angle is left in the rest. If v has
+//! other angles too, points at distance r are also put between their segments ([`fan`]).
 //!
 //! # The spacing beside a cut
-//! Across a corner of angle θ, two segments are about s y apart at distance y from v, s = 2 sin(θ/2). For circles of one
-//! segment not to reach the other, c_b f is held below κ s y on them, from the cut to the end of the shorter one, and
-//! grows with t away from there ([`Capped`]). Then κ < 1 keeps the circles of neighbouring cut points from holding
-//! each other, and at least [`Edge::least_radius`] makes them meet high enough above the cut edge for Theorem 6.8, and
-//! makes the corner triangle Delaunay: no vertex of the rest sees its base under more than 180° − θ. It comes back by itself.
+//! Across a corner of angle θ, two segments are about s y apart at distance y from v, s = 2 sin(θ/2). So that circles
+//! of one segment do not reach the other, c_b f is held below κ s y on both, from the cut to the end of the shorter
+//! one, and grows with slope t away from there ([`Capped`]). Since κ < 1, the circles of neighbouring cut points do not
+//! hold each other's centres. Since their radii are at least [`Edge::least_radius`], they meet high enough above the
+//! cut edge for Theorem 6.8, and no vertex of the rest sees the base of the corner triangle under more than 180° − θ.
+//! So the corner triangle is Delaunay, and the triangulation brings it back by itself.
 //!
 //! # Circles that meet low
-//! Lemmas 6.3 and 6.4 bound from below how high above a segment the circles of neighbouring centres meet, except for the
-//! two ends of a segment that their circles cover between them. Where those meet lower than (9), both are
-//! held to half of the distance between them, so that step 4 puts a circle in the middle. With that the angle bound no longer
-//! needs c_b + t ≤ 1.
+//! Lemmas 6.3 and 6.4 bound from below how high above a segment the circles of neighbouring centres meet. They overlook
+//! the two ends of a segment whose circles together cover it. If those meet lower than (9), both radii are held to half
+//! the distance between the ends, so that step 4 puts a circle in the middle. The angle bound then holds without c_b +
+//! t ≤ 1.
 //!
-//! By the rule of the later point they cover a segment between them only where c_b f exceeds half its length in the middle.
-//! It is held down there: only beside cuts, where f ≤ lfs.
+//! By the rule of the later point, two ends together cover a segment only if c_b f exceeds half its length in its
+//! middle. It is held down there. If f ≤ lfs, this happens only beside cuts.
 
 use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
@@ -39,15 +40,15 @@ use crate::theory::least_meeting_height;
 use crate::theory::{FLAT_T, Rule};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// κ: circles beside a cut have this share of the width there.
+/// κ: the radius of a circle beside a cut, as a share of the width there.
 pub(in crate::meshers::biting) const SHARE: f64 = 0.95;
 
 /// A cut, and its edges, are at most this share of the distance from the vertex to features not incident to it, so that a
 /// third is left where both ends of a segment are cut.
 const REACH_SHARE: f64 = 1.0 / 3.0;
 
-/// Where the spacing given is flatter than [`FLAT_T`], it grows with this away from what is held down: without any growth a
-/// single corner would set the size everywhere.
+/// If the given spacing is flatter than [`FLAT_T`], it grows with this slope away from where it is held down: without
+/// any growth a single corner would set the size everywhere.
 const GROWTH: f64 = 0.25;
 
 /// A cut that smaller ones nearby disturb is made smaller by at least this factor, until it fits.
@@ -55,18 +56,20 @@ const SHRINK: f64 = 0.8;
 
 /// The corners that are cut off, and the spacing that fits them.
 pub(in crate::meshers::biting) struct Cuts {
-    /// For each input vertex how far from it its segments are cut, 0 where they are not.
+    /// For each input vertex, how far from it its segments are cut; 0 if they are not.
     distances: Vec<f64>,
     /// Points of cuts that are on no segment.
     pub between: Vec<DVec2>,
-    /// The sides of all corner triangles, and for each whether a corner lies on its left and on its right.
+    /// The sides of all corner triangles, and for each side whether a corner triangle lies on its left and on its
+    /// right.
     outline: SegmentIndex,
     sides: Vec<[bool; 2]>,
     /// How many vertices are cut off.
     pub count: usize,
-    /// How many segments get a circle between those of their ends, which would otherwise cover them and meet low.
+    /// How many segments get a circle in the middle, because the circles of their ends would else cover them and meet
+    /// low.
     pub parted: usize,
-    /// How many angles had to be divided to less than the smallest angle of their vertex.
+    /// How many angles had to be divided into parts smaller than the smallest angle of their vertex.
     pub narrowed: usize,
 }
 
@@ -79,19 +82,19 @@ fn is_small(wedge: &Wedge) -> bool {
     wedge.angle.to_degrees() < 90.0 - RIGHT_ANGLE_DEG
 }
 
-/// The decisions in the making: distances and parted segments, made to fit one another round by round.
+/// The cuts while they are being decided: distances and parted segments are made to fit one another, round by round.
 struct Plan<'a> {
     domain: &'a Domain,
     sizing: Sizing<'a>,
     c_b: f64,
     rule: Rule,
-    /// How fast s grows away from caps.
+    /// The slope with which s grows away from caps.
     t: f64,
-    /// The fans of vertices to be cut off, by vertex, for distance 1.
+    /// The vertices to be cut off, each with its fan for distance 1.
     fans: Vec<(usize, Fan)>,
     /// As in [`Cuts`].
     distances: Vec<f64>,
-    /// Segments whose ends' circles are held apart.
+    /// For each segment, whether the circles of its ends are held apart.
     parted: Vec<bool>,
 }
 
@@ -109,8 +112,8 @@ impl Cuts {
         }
     }
 
-    /// What is cut off and kept apart by the parameters of `biting`, and the spacing for the rest; declined if coordinates
-    /// cannot resolve a cut.
+    /// The cuts, and the segments parted, as the parameters of `biting` demand, with the spacing for the rest. Declined
+    /// if coordinates cannot resolve a cut.
     pub fn new<'a>(
         biting: &Biting,
         domain: &'a Domain,
@@ -133,7 +136,7 @@ impl Cuts {
         self.distances[v] > 0.0
     }
 
-    /// How far from its end `v` a segment is cut; 0 where it is not.
+    /// How far from its end `v` a segment is cut; 0 if it is not.
     pub fn distance(&self, v: usize) -> f64 {
         self.distances[v]
     }
@@ -191,8 +194,8 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
-    /// How far from `v` its segments can be cut: so that the corner triangles are as large as the triangles beside them, as far as
-    /// the spacing and the nearest feature not incident to `v`, at the distance given, leave room for that.
+    /// How far from `v` its segments are cut, so that the corner triangles are about as large as the triangles beside
+    /// them. The spacing limits this, and so do the features not incident to `v`, of which `nearest` is the distance.
     fn room(&self, nearest: f64, v: usize, fan: &Fan) -> Result<f64, MeshError> {
         let domain = self.domain;
         let lengths = domain.wedges(v).iter().map(|wedge| domain.away(wedge.from, v).1);
@@ -229,8 +232,8 @@ impl<'a> Plan<'a> {
         caps
     }
 
-    /// The caps along segments at `v` that face each other at less than 90°: neighbours, and beyond the ends of shorter ones
-    /// between them others too.
+    /// The caps along segments at `v` that face each other at less than 90°: neighbours and, beyond the ends of shorter
+    /// segments between them, others too.
     fn beside(&self, v: usize, distance: f64) -> Vec<Cap> {
         let (domain, wedges) = (self.domain, self.domain.wedges(v));
         let vertex = domain.vertices()[v];
@@ -266,7 +269,7 @@ impl<'a> Plan<'a> {
         [segment.a, segment.b].map(|v| self.domain.vertices()[v] + self.domain.away(s, v).0 * self.distances[v])
     }
 
-    /// Makes cuts smaller whose circles are held below what their edges need; returns whether there were none.
+    /// Makes cuts smaller if their circles are held below what their edges need. Returns whether there were none.
     fn shrink(&mut self, capped: &Sizing) -> Result<bool, MeshError> {
         let mut is_settled = true;
         for (v, fan) in &self.fans {
@@ -290,7 +293,8 @@ impl<'a> Plan<'a> {
         Ok(is_settled)
     }
 
-    /// Marks segments that the circles of their two ends cover between them, meeting low; returns whether there were none.
+    /// Marks segments that the circles of their two ends together cover while meeting low. Returns whether there were
+    /// none.
     fn part(&mut self, capped: &Sizing) -> Result<bool, MeshError> {
         let mut is_settled = true;
         for s in (0..self.parted.len()).filter(|&s| !self.parted[s]).collect::<Vec<_>>() {
@@ -302,9 +306,9 @@ impl<'a> Plan<'a> {
         Ok(is_settled)
     }
 
-    /// Whether two ends of a segment cover it between them and meet low: lower than (9) or, by the rule of the later point,
-    /// with a middle m that is eaten, but g(m) − t c / 2 ≤ c / √2, so that a point may be left in the circle over the segment,
-    /// which is c long.
+    /// Whether the two ends of a segment, which is c long, together cover it and meet low. By the paper's rule, low is
+    /// lower than (9). By the rule of the later point, the middle m is eaten, but g(m) − t c / 2 ≤ c / √2, so that a
+    /// point may be left in the circle over the segment.
     fn meet_low(&self, [a, b]: [DVec2; 2], capped: &Sizing) -> Result<bool, MeshError> {
         let between = a.distance(b);
         Ok(match self.rule {
@@ -363,8 +367,8 @@ fn nearest_apart(features: &SegmentIndex, domain: &Domain, v: usize) -> f64 {
 
 fn unresolved(vertex: DVec2) -> MeshError {
     MeshError::Declined(format!(
-        "the angle at ({}, {}) is too small, or features too close to it, for coordinates of this size to resolve what is \
-         cut off there (§5.1); move the domain to the origin, widen the angle, or try `--param corners=bite`",
+        "the angle at ({}, {}) is too small, or features are too close to it: coordinates of this size do not resolve the \
+         corner to be cut off there (§5.1); move the domain to the origin, widen the angle, or try `--param corners=bite`",
         vertex.x, vertex.y
     ))
 }

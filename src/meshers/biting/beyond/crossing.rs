@@ -1,27 +1,28 @@
-//! Where a line leaves what a point has eaten by the rule of the later point.
+//! Where a line leaves what a point has eaten, by the rule of the later point.
 //!
 //! # Idea
-//! Along a line, at the signed distance w from the foot of a point x that lies `away` from it, x has eaten where
-//! F(w) = √(away² + w²) − share · g(w) is negative. With g t-Lipschitz, the slope of F is within t of w / √(away² + w²). So
-//! from w₀ = t away / √(1 − t²) on, F rises, and up to −w₀ it falls: one crossing on either side at most, found between two
-//! points of different sign. In between F may wiggle as g does; there its slope is at most 2t, and an interval whose two ends
-//! are farther from 0 than that can bridge has no crossing. All others are halved a few times; then F is assumed to turn at most
-//! once in each, so that an extremum that only touches 0 does not cost as many steps as it has digits.
+//! Let x be a point at distance `away` from a line, and w the signed distance along the line from the foot of x. At w,
+//! the point x has eaten the line where F(w) = √(away² + w²) − share · g(w) is negative. Since g is t-Lipschitz, the
+//! slope of F is within t of w / √(away² + w²). So with w₀ = t away / √(1 − t²), F rises from w₀ on and falls up to
+//! −w₀. On either side there is at most one crossing, and it is found between two points of different sign. In between,
+//! F may wiggle as g does. There its slope is at most 2t, so an interval has no crossing if the values at its two ends
+//! are too far from 0 for that slope. All other intervals are halved a few times. After that F is assumed to have at
+//! most one extremum in each, so that an extremum which only touches 0 does not cost a step for every bit.
 
 use crate::geometry::DVec2;
 use crate::geometry::tolerance::EATEN;
 use crate::meshers::MeshError;
 use crate::meshers::sizing::Sizing;
 
-/// How often the stretch where F may wiggle is halved before F is assumed to turn at most once in each part.
+/// How often the stretch where F may wiggle is halved, before F is assumed to have at most one extremum in each part.
 const HALVINGS: usize = 6;
-/// Steps to the turning point: 0.618⁴⁸ is 1e-10.
+/// Steps to the extremum: 0.618⁴⁸ is 1e-10.
 const STEPS_TO_EXTREMUM: usize = 48;
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
-/// Most steps to a crossing that is known to be one. Every third halves the interval.
+/// Most steps to a crossing that is known to exist. Every third step halves the interval.
 const STEPS: usize = 200;
 
-/// A line past a point.
+/// A line that passes a point.
 #[derive(Clone, Copy)]
 pub(in crate::meshers::biting) struct PassingLine<'a> {
     pub sizing: Sizing<'a>,
@@ -31,20 +32,20 @@ pub(in crate::meshers::biting) struct PassingLine<'a> {
     pub direction: DVec2,
     /// How far the point is from the line.
     pub away: f64,
-    /// The factor by which g is reduced.
+    /// The factor by which g is taken smaller.
     pub share: f64,
-    /// An estimate of g here, to begin with.
+    /// A first guess of g at the crossing.
     pub guess: f64,
 }
 
-/// Where F changes sign.
+/// A place where F changes sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::meshers::biting) struct Crossing {
     /// Signed distance from the foot.
     pub at: f64,
     /// g there.
     pub radius: f64,
-    /// Whether the line leaves what is eaten there, in its direction.
+    /// Whether F rises there: whether the line, in its direction, leaves what is eaten.
     pub rises: bool,
 }
 
@@ -74,7 +75,7 @@ impl PassingLine<'_> {
                 self.halve([self.sample(first)?, self.sample(last)?], 0, &mut found)?;
                 continue;
             }
-            // F is larger at the end away from the foot: where it is negative there, it is everywhere.
+            // F is largest at the end away from the foot: if it is negative there, it is negative everywhere.
             let (near, far) = if first >= turn { (first, last) } else { (last, first) };
             let far = self.sample(far)?;
             if far.excess >= 0.0 {
@@ -86,7 +87,7 @@ impl PassingLine<'_> {
         Ok(found)
     }
 
-    /// Where the line first leaves what is eaten in [from, to]: `from` itself if it is not eaten, none if everything is.
+    /// The first point of [from, to] that is not eaten: `from` itself if it is not, none if all are.
     pub fn exit(&self, [from, to]: [f64; 2]) -> Result<Option<f64>, MeshError> {
         if self.sample(from)?.excess >= 0.0 {
             return Ok(Some(from));
@@ -117,7 +118,8 @@ impl PassingLine<'_> {
         }
         let across = |radius: f64| ((self.share * radius).powi(2) - self.away * self.away).max(0.0).sqrt();
         let side = if rises { 1.0 } else { -1.0 };
-        // A fixed point of w ↦ √((share · g(w))² − away²) to begin with: for constant g it is the crossing itself.
+        // The first step looks for a fixed point of w ↦ √((share · g(w))² − away²): for constant g that is the crossing
+        // itself.
         let mut next = side * across(self.guess);
         let mut last = low;
         for step in 0..STEPS {
@@ -155,7 +157,8 @@ impl PassingLine<'_> {
         }))
     }
 
-    /// All crossings between two samples where the slope of F is at most 2t, after `halvings` of what is between −w₀ and w₀.
+    /// All crossings between two samples where the slope of F is at most 2t, after `halvings` halvings of the stretch
+    /// between −w₀ and w₀.
     fn halve(&self, [low, high]: [Sample; 2], halvings: usize, found: &mut Vec<Crossing>) -> Result<(), MeshError> {
         let changes = (low.excess < 0.0) != (high.excess < 0.0);
         let bridge = 2.0 * self.sizing.t() * (high.at - low.at);
@@ -176,7 +179,8 @@ impl PassingLine<'_> {
         Ok(())
     }
 
-    /// A sample of the other sign between two of the same: where F has its one extremum there, by golden sections.
+    /// A sample of the other sign between two of the same sign, if there is one: found by golden sections on the way to
+    /// the one extremum of F.
     fn other_side(&self, [low, high]: [Sample; 2]) -> Result<Option<Sample>, MeshError> {
         let side = if low.excess < 0.0 { 1.0 } else { -1.0 };
         let (mut from, mut to) = (low.at, high.at);

@@ -1,10 +1,10 @@
-//! The edges around a vertex that is cut off: one between neighbouring segments, or several if these are far apart.
+//! The edges around a vertex that is cut off: one or more between each two neighbouring segments.
 //!
 //! # Idea
-//! Circles at the ends of a cut edge must overlap above it and not hold each other, so that edges which share an end
-//! differ in length by a factor of 1.3 to 1.5 at most. An angle wider than that beside a narrow one is divided, with
-//! parts that grow away from the narrow one. No part need be smaller than the smallest angle at the vertex, except for angles
-//! between about 1.5 and 2 times a neighbour: these are halved, and counted.
+//! Circles at the ends of a cut edge must overlap above it, but not hold each other's centres. So edges which share an
+//! end differ in length by a factor of at most 1.3 to 1.5. A wider angle beside a narrow one is divided into parts that
+//! grow away from the narrow one. No part need be smaller than the smallest angle at the vertex, with one exception:
+//! angles between about 1.5 and 2 times a neighbour are halved, and counted.
 
 use crate::domain::{Domain, Wedge};
 use crate::geometry::DVec2;
@@ -16,20 +16,20 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 /// Room for what rounding takes from f when two edges share an end.
 const ROOM: f64 = 1.01;
 
-/// How fast parts grow away from a narrow angle: by this share of t, and with this t at most.
+/// How fast parts grow away from a narrow angle: with this share of t, and as if t were at most [`MOST_T`].
 const GROWTH: f64 = 0.8;
 const MOST_T: f64 = 0.25;
 
 /// The largest part of an angle of 90° or more.
 const WIDEST_PART: f64 = FRAC_PI_3;
 
-/// Most parts that an angle is divided into beyond that.
+/// How many numbers of parts [`fewest_parts`] tries, from the least possible on.
 const MOST_PARTS: i32 = 16;
 
-/// Most rounds of dividing further because neighbours differ too much.
+/// Most rounds in which wedges are divided further because neighbours differ too much.
 const ROUNDS: usize = 64;
 
-/// Steps per angle when parts of equal weight are laid out in it.
+/// Steps into which an angle is divided to lay out parts of equal weight in it.
 const STEPS: usize = 256;
 
 /// A cut edge, for a cut at distance 1 from the origin.
@@ -47,12 +47,12 @@ impl Edge {
         2.0 * (0.5 * self.angle).sin()
     }
 
-    /// The smallest radius of circles at its ends: they meet at least as high above it as (9) says, and hold every point that
-    /// sees it under more than 175° less its angle.
+    /// The smallest radius of circles at its ends. From this on they meet at least as high above it as (9) says, and
+    /// hold every point that sees it under more than 175° less its angle.
     ///
-    /// By the rule of the later point, what ends of radius r eat holds only the circles of r / (1 + t). Points outside of both
-    /// see the edge under φ at most, sin(φ/2) = half the edge over r / (1 + t), and make angles of at least 90° − φ/2
-    /// with it: not below asin((1 − t) / 2).
+    /// By the rule of the later point, ends of radius r are only sure to eat their circles of radius r / (1 + t).
+    /// Points outside both circles see the edge under at most φ, where sin(φ/2) is half the edge over r / (1 + t). The
+    /// angles they make with it are at least 90° − φ/2, which must not be below asin((1 − t) / 2).
     pub fn least_radius(&self, t: f64, rule: Rule) -> f64 {
         let by_angle = 1.0 / (0.5 * (175f64.to_radians() - self.angle)).sin();
         let half = 0.5 * self.width();
@@ -70,15 +70,16 @@ impl Edge {
         }
     }
 
-    /// The largest radius that circles at its ends are given, beside segments at its angle: they do not hold each other, and by
-    /// the rule of the later point no point of one segment eats one of the other.
+    /// The largest radius of circles at its ends, beside segments at its angle: they do not hold each other's centres
+    /// and, by the rule of the later point, no point of one segment eats one of the other.
     pub fn most_radius(&self, rule: Rule) -> f64 {
         slope_beside(self.angle, rule)
     }
 }
 
-/// How fast circles may grow along two segments that face each other at `angle`, by distance from their vertex: a share of the
-/// width there and, by the rule of the later point, no more than the distance to the other segment.
+/// How fast circles may grow along two segments that face each other at `angle`, with the distance from their vertex:
+/// by a share of the width there and, by the rule of the later point, by no more than the distance to the other
+/// segment.
 pub(in crate::meshers::biting) fn slope_beside(angle: f64, rule: Rule) -> f64 {
     let width = SHARE * 2.0 * (0.5 * angle).sin();
     rule.of(width, width.min(angle.sin()))
@@ -95,7 +96,7 @@ pub(in crate::meshers::biting) struct Fan {
 }
 
 impl Fan {
-    /// The fan of vertex `v`, for a spacing that grows with `t`.
+    /// The fan of vertex `v`, for a spacing that grows with slope `t`.
     pub fn new(domain: &Domain, v: usize, t: f64, rule: Rule) -> Self {
         let mut fan = Self::default();
         let wedges = domain.wedges(v);
@@ -127,7 +128,7 @@ impl Fan {
     }
 }
 
-/// The parts of each wedge around a vertex, counter-clockwise; none of those outside.
+/// The parts of each wedge around a vertex, counter-clockwise; a wedge outside has none.
 fn divide(wedges: &[Wedge], t: f64, rule: Rule) -> Vec<Vec<f64>> {
     let sizes = sizes(wedges, [GROWTH * t.min(MOST_T), t], rule);
     let whole = |size: &Size| size.total().round().max(1.0) as usize;
@@ -153,10 +154,10 @@ fn divide(wedges: &[Wedge], t: f64, rule: Rule) -> Vec<Vec<f64>> {
     all_parts(&counts)
 }
 
-/// A wedge with a part too wide for the one beside it.
+/// A wedge with a part that is too wide for the part beside it.
 fn misfit(wedges: &[Wedge], parts: &[Vec<f64>], t: f64, rule: Rule) -> Option<usize> {
     let each = |k: usize| parts[k].iter().map(move |part| wedges[k].inside.then_some((k, *part)));
-    // Where a wedge lies outside, the parts before and after it share no end.
+    // If a wedge lies outside, the parts before and after it share no end.
     let outside = |k: usize| (!wedges[k].inside).then_some(None);
     let all: Vec<Option<(usize, f64)>> = (0..wedges.len()).flat_map(|k| each(k).chain(outside(k))).collect();
     (0..all.len()).find_map(|k| {
@@ -166,7 +167,8 @@ fn misfit(wedges: &[Wedge], parts: &[Vec<f64>], t: f64, rule: Rule) -> Option<us
     })
 }
 
-/// Whether edges of these angles can share an end: its circle must not hold the ends of the one and suffice for the other.
+/// Whether edges of these angles can share an end: its circle must not hold the other end of the narrow edge, and must
+/// be large enough for the wide one.
 fn fit(narrow: f64, wide: f64, t: f64, rule: Rule) -> bool {
     SHARE * edge(narrow).width() >= ROOM * edge(wide).least_radius(t, rule)
 }
@@ -197,17 +199,17 @@ fn fewest_parts(angle: f64, t: f64, rule: Rule) -> f64 {
         .unwrap_or(least)
 }
 
-/// The size of parts within an angle: the least of three lines.
+/// The size of parts within an angle: at each place, the least of three linear functions.
 struct Size {
     angle: f64,
     most: f64,
-    /// At its two ends.
+    /// The sizes at its two ends.
     ends: [f64; 2],
     growth: f64,
 }
 
-/// The largest parts that each wedge may have, growing away from the narrow ones. Growth goes on through wedges outside, since
-/// circles grow no faster across them.
+/// The sizes of parts that each wedge may have, growing away from the narrow ones. They grow on through wedges outside,
+/// since circles grow no faster across these.
 fn sizes(wedges: &[Wedge], [growth, t]: [f64; 2], rule: Rule) -> Vec<Size> {
     let most = |wedge: &Wedge| match wedge.angle {
         _ if !wedge.inside => f64::INFINITY,
@@ -239,7 +241,7 @@ impl Size {
         self.most.min(grown)
     }
 
-    /// How many parts there are by size in each of [`STEPS`] steps.
+    /// For each of [`STEPS`] steps, how many parts fall on it by size.
     fn weights(&self) -> impl Iterator<Item = f64> {
         let step = self.angle / STEPS as f64;
         (0..STEPS).map(move |k| step / self.at((k as f64 + 0.5) * step))
@@ -249,7 +251,7 @@ impl Size {
         self.weights().sum()
     }
 
-    /// That many parts of equal weight.
+    /// `count` parts of equal weight.
     fn parts(&self, count: usize) -> Vec<f64> {
         if count == 0 {
             return Vec::new();
@@ -274,7 +276,7 @@ impl Size {
 mod tests {
     use super::*;
 
-    /// The parts of angles inside, what is left of 360° being outside.
+    /// The parts of angles inside; what is left of 360° is outside.
     fn parts(degrees: &[f64]) -> Vec<Vec<f64>> {
         let wedge = |degrees: f64, inside: bool| Wedge {
             from: 0,
@@ -332,7 +334,7 @@ mod tests {
 
     #[test]
     fn sizes_grow_on_across_a_notch() {
-        // 2° inside, 4° outside, 60° inside: beside the notch, parts of the last are as small as the 2° ask for.
+        // 2° inside, 4° outside, 60° inside: beside the notch, the parts of the 60° are as small as the 2° demand.
         let wedge = |degrees: f64, inside| Wedge {
             from: 0,
             to: 1,

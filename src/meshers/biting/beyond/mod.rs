@@ -1,5 +1,5 @@
-//! What is not in the paper: small angles cut off, notches, circles that would meet low, distances inside the domain, and
-//! the rule of the later point.
+//! What is not in the paper: how small angles are cut off, notches, circles that would meet low, distances inside the
+//! domain, and the rule of the later point.
 
 pub(super) mod capped;
 pub(super) mod corners;

@@ -2,14 +2,14 @@
 //!
 //! # Idea
 //! A notch is an angle under 90° between two segments that opens to the outside. A circle centred on one side of it, or
-//! behind that side, reaches across it and holds points beyond the other side. The paper's proofs count such a point as
-//! covered, but no triangle joins it to that centre, and segments bitten from across a notch are left with pieces far too
-//! long for their own circles. So a circle here covers only points that its centre sees past every notch.
+//! behind that side, reaches across the notch and holds points beyond the other side. The paper's proofs count such a
+//! point as covered, but no triangle joins it to that centre, and segments bitten from across a notch are left with
+//! pieces far too long for their own circles. So here a circle covers only points that no notch hides from its centre.
 //!
 //! # Why that leaves no new kind of front
-//! Where a circle of radius s(x) around a centre x outside the circle of the notch's vertex v ends behind v, it goes on
-//! for at most s(x) − ‖x − v‖ ≤ s(v) − (1 − t) ‖x − v‖ ≤ t s(v) there. So the rim of its shadow lies in the circle of v, and
-//! the front consists of arcs of circles as before.
+//! Let a circle of radius s(x) have its centre x outside the circle of the notch's vertex v. Behind v it goes on for at
+//! most s(x) − ‖x − v‖ ≤ s(v) − (1 − t) ‖x − v‖ ≤ t s(v). So the border of what the notch hides from x lies in the
+//! circle of v, and the front consists of arcs of circles as before.
 
 use crate::domain::Domain;
 use crate::geometry::DVec2;
@@ -30,14 +30,14 @@ struct Notch {
 #[derive(Default)]
 pub(in crate::meshers::biting) struct Notches {
     notches: Vec<Notch>,
-    /// Their segments: of notch k the ones at 2k and 2k + 1.
+    /// Their segments: those of notch k are at 2k and 2k + 1.
     index: SegmentIndex,
-    /// A point at most this far from a side counts as on it: centres on segments are rounded.
+    /// A point no farther than this from a side counts as on it, since centres on segments are rounded.
     slack: f64,
 }
 
 impl Notches {
-    /// The notches of a domain.
+    /// The notches of `domain`.
     pub fn new(domain: &Domain) -> Self {
         let mut notches = Vec::new();
         for (v, &vertex) in domain.vertices().iter().enumerate() {
@@ -85,7 +85,8 @@ impl Notch {
         [self.vertex, self.vertex + self.rays[which] * self.lengths[which]]
     }
 
-    /// Whether the way from `x` to `y` crosses the first side and then the second; an end of it may lie on a side.
+    /// Whether the straight line from `x` to `y` crosses the first side and then the second; an end of it may lie on a
+    /// side.
     fn parts(&self, x: DVec2, y: DVec2, slack: f64) -> bool {
         let ([first, second], [from, to]) = (self.rays, [x - self.vertex, y - self.vertex]);
         let turn = from.perp_dot(to);
@@ -128,7 +129,7 @@ mod tests {
         assert!(notches.part(left, right) && notches.part(right, left));
         let low = DVec2::new(0.6, -0.6);
         assert!(!notches.part(left, low) && !notches.part(low, right) && !notches.part(left, left));
-        // Ends on the sides themselves.
+        // Points on the sides themselves.
         let on = domain.vertices()[3] * 0.5;
         assert!(notches.part(left, on) && notches.part(on, left));
         assert!(!notches.part(right, on) && !notches.part(on, domain.vertices()[3] * 0.75));

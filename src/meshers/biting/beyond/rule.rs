@@ -1,65 +1,70 @@
 //! Who bites whom: what the rule of the later point changes.
 //!
 //! # Idea
-//! Let g = c_b f, t-Lipschitz with t < 1. By the paper's rule a point x eats the circle B(x, g(x)). By the rule of the later
-//! point ([`Rule::Later`]) it eats all y that it would be too near for, { y : ‖x − y‖ < g(y) }: along a ray from x, the
-//! distance less g rises, so that is star-shaped, lies between B(x, g(x) / (1 + t)) and B(x, g(x) / (1 − t)), and is a circle
-//! where f is constant. The front is where the distance to the nearest point is g; its vertices are the y that have two
-//! nearest points, ‖y − x₁‖ = ‖y − x₂‖ = g(y): on edges of the Voronoi diagram. So the search for a pair of points is on that part
-//! of their bisector to which no third point is nearer, which is mostly empty, and [`PassingLine`] finds where it leaves what
-//! is eaten. A front vertex y is eaten by every point nearer than g(y).
+//! Let g = c_b f be t-Lipschitz with t < 1. By the paper's rule a point x eats the circle B(x, g(x)). By the rule of
+//! the later point ([`Rule::Later`]) it eats every y to which it is too near, { y : ‖x − y‖ < g(y) }. Along a ray from
+//! x, the distance less g rises. So what x eats is star-shaped, lies between B(x, g(x) / (1 + t)) and B(x, g(x) / (1 −
+//! t)), and is a circle if f is constant. The front is where the distance to the nearest point is g. Its vertices are
+//! the points y with two nearest points, ‖y − x₁‖ = ‖y − x₂‖ = g(y), which lie on edges of the Voronoi diagram. So the
+//! search for a pair of points takes the part of their bisector to which no third point is nearer (mostly there is
+//! none), and [`PassingLine`] finds where this part leaves what is eaten. A front vertex y is eaten by every point
+//! nearer than g(y).
 //!
 //! # What is known and what is new
-//! Mitchell, Rand, Ebeida and Bajaj compare rules for random samplings of domains without a boundary. The paper's rule is
-//! their *prior-disks*, the rule of the later point their *current-disks*. With L for t they have sin θ ≥ (1 − 2L) / 2 for the
-//! first and sin θ ≥ (1 − L) / 2 for the second, so the bound of the first subset below is theirs. New here are the boundary
-//! (the second subset, edge protection, corners of 90° and more, for any t < 1), the front of a bite that is not a circle,
-//! the constants of nn and β, and the hypotheses under which all of it holds.
+//! Mitchell, Rand, Ebeida and Bajaj compare rules for random samplings of domains without a boundary. The paper's rule
+//! is their *prior-disks*, the rule of the later point their *current-disks*. With L for t, they prove sin θ ≥ (1 − 2L)
+//! / 2 for the first and sin θ ≥ (1 − L) / 2 for the second, so the bound of the first subset below is theirs. New here
+//! are the boundary (the second subset, edge protection, corners of 90° and more, for any t < 1), the front of a bite
+//! that is not a circle, the constants of nn and β, and the hypotheses under which all of this holds.
 //!
 //! # The smallest angle
-//! Let f ≤ lfs, c_b ≤ 1, no angle under 90°. **First subset.** The circumcentre c of a triangle is a point of the domain that
-//! sees it. Its nearest points are at distance R, the radius, and it is eaten: R ≤ g(c). Of the ends of the shortest edge let
-//! q be the later; then l ≥ g(q) ≥ g(c) − t R ≥ (1 − t) R, and
+//! Let f ≤ lfs, c_b ≤ 1, no angle under 90°. **First subset.** The circumcentre c of a triangle is a point of the
+//! domain that sees it. Its nearest points are at distance R, the radius, and it is eaten, so R ≤ g(c). Let q be the
+//! later end of the shortest edge, which is l long. Then l ≥ g(q) ≥ g(c) − t R ≥ (1 − t) R, and
 //!
 //! > sin θ = l / 2R ≥ (1 − t) / 2,
 //!
-//! where the paper's rule has 1/2 − t, as there the circle that holds c belongs to a third point, which costs t R once more.
-//! **Second subset.** A piece p₁ p₂ of a segment, c = ‖p₁ p₂‖, parts the triangle from its circumcentre. The circle's chord
-//! lies in the piece, the triangle in the half disc over it. A vertex x off the segment has ‖x − pᵢ‖ ≥ g(x): an interior
-//! point is later than pᵢ; on a segment that does not meet this one lfs(x) says so, and on one that does the vertex v between
-//! them, since ‖x − pᵢ‖ ≥ ‖x − v‖ ≥ g(x). The angle φ at x is at least 90°, and R ≤ c / (2 sin φ), since of the circles through
-//! x that hold neither pᵢ and have their centre beyond the piece the one through both is the largest. Of the ends of the
-//! shortest edge let x be the later off the segment, so l ≥ g(x) and sin θ ≥ g(x) sin φ / c. The piece says how large g is:
-//! - where one end was put on the border of what the other had eaten, c = g(p₂), and g(x) ≥ c − t ‖x − p₂‖;
-//! - where one end is the middle of a gap whose end q₁ is on the border of what p₁ had eaten, a = ‖q₁ − p₁‖ = g(q₁),
-//!   a ≤ c ≤ 3a/2, and g(x) ≥ a − t ‖x − q₁‖;
-//! - two input vertices without a point between them do not occur: the middle m of a segment has
-//!   g(m) ≤ c_b lfs(m) ≤ ‖p₁ p₂‖ / 2, so it is not eaten. (By the paper's rule they do where c_b + t > 1, and meet low.)
+//! The paper's rule has 1/2 − t instead: there the circle that holds c belongs to a third point, which costs t R once
+//! more. **Second subset.** A piece p₁ p₂ of a segment, c = ‖p₁ p₂‖, separates the triangle from its circumcentre. The
+//! circle's chord lies in the piece, the triangle in the half disc over it. A vertex x off the segment has ‖x − pᵢ‖ ≥
+//! g(x). For an interior point the reason is that it is later than pᵢ. On a segment that does not meet this one, it
+//! follows from lfs(x). On a segment that meets this one in a vertex v, it follows from ‖x − pᵢ‖ ≥ ‖x − v‖ ≥ g(x). The
+//! angle φ at x is at least 90°. And R ≤ c / (2 sin φ): of the circles through x that hold neither pᵢ and have their
+//! centre beyond the piece, the one through both is the largest. Of the ends of the shortest edge that are off the
+//! segment, let x be the later. Then l ≥ g(x) and sin θ ≥ g(x) sin φ / c. The piece determines how large g is:
+//! - if one end was put on the border of what the other had eaten, c = g(p₂), and g(x) ≥ c − t ‖x − p₂‖;
+//! - if one end is the middle of a gap whose end q₁ is on the border of what p₁ had eaten, then with a = ‖q₁ − p₁‖ =
+//!   g(q₁), a ≤ c ≤ 3a/2 and g(x) ≥ a − t ‖x − q₁‖;
+//! - two input vertices without a point between them do not occur: the middle m of a segment has g(m) ≤ c_b lfs(m) ≤
+//!   ‖p₁ p₂‖ / 2, so it is not eaten. (By the paper's rule they occur if c_b + t > 1, and their circles meet low.)
 //!
-//! As in Lemmas 6.3 and 6.4, front vertices over a piece are equally far from its ends, so at h = √(g² − c²/4) above it: over
-//! pieces of the first kind h ≥ c √(1 / (1 + t)² − 1/4), over those of the second h is at least the root of
-//! √(c²/4 + h²) + t √((a − c/2)² + h²) = a for c = 3a/2. Both are positive for t < 1; at t = 1/4 they are 0.624 c and 0.297 c.
+//! As in Lemmas 6.3 and 6.4, front vertices over a piece are equally far from its ends, so they are h = √(g² − c²/4)
+//! above it. Over pieces of the first kind h ≥ c √(1 / (1 + t)² − 1/4), over those of the second kind h is at least the
+//! root of √(c²/4 + h²) + t √((a − c/2)² + h²) = a for c = 3a/2. Both are positive for t < 1; at t = 1/4 they are 0.624
+//! c and 0.297 c.
 //!
-//! The least of g(x) sin φ / c over all such x is a problem in two unknowns and c. For every t < 1 it is above (1 − t) / 2, by
-//! a factor of 1.32 at t = 0 and more than that for all others tried; in the first case there is no such x for t < √2 − 1.
-//! A test repeats the search. So the bound of the first subset holds for all triangles and all t < 1. (As with the paper,
-//! circumcentres that see a vertex across a piece of an inner segment are left out; such pieces are counted as forced.)
+//! Finding the least g(x) sin φ / c over all such x is a problem in two unknowns and c. For every t < 1 it is above (1
+//! − t) / 2: by a factor of 1.32 at t = 0, and by more for all other t tried. In the first case there is no such x for
+//! t < √2 − 1. A test repeats the search. So the bound of the first subset holds for all triangles and all t < 1. (As
+//! in the paper, circumcentres that see a vertex across a piece of an inner segment are left out; such pieces are
+//! counted as forced.)
 //!
 //! # Distances, packing, size
-//! Any two points keep min(g(x), g(y)), so Lemma 5.4 holds as it stands, c_p = c_b / (2 + t). For the rest, with x the point
-//! itself or the nearest to y:
+//! Any two points x and y are at least min(g(x), g(y)) apart, so Lemma 5.4 holds as it stands, c_p = c_b / (2 + t). For
+//! the rest, let x be the point itself or the one nearest to y:
 //! - nn(x) ≥ g(x) / (1 + t): either ‖x − y‖ ≥ g(x), or ‖x − y‖ ≥ g(y) ≥ g(x) − t ‖x − y‖;
-//! - nn(x) ≤ 2 g(x) / (1 − t): a point z on the border of what x has eaten is eaten by another or on its border, and
-//!   g(z) ≤ g(x) + t g(z);
-//! - nn(y) ≥ g(y) / (2 + t) elsewhere: 2 nn(y) ≥ ‖x − z‖ ≥ g of the later ≥ g(y) − t nn(y);
+//! - nn(x) ≤ 2 g(x) / (1 − t): a point z on the border of what x has eaten is also eaten by another point, or on the
+//!   border of what that has eaten, and g(z) ≤ g(x) + t g(z);
+//! - nn(y) ≥ g(y) / (2 + t) elsewhere: with x and z the two nearest points, 2 nn(y) ≥ ‖x − z‖ ≥ g of the later ≥ g(y) −
+//!   t nn(y);
 //! - nn(y) ≤ (3 + t) / (1 − t) · g(y): ‖y − x‖ ≤ g(y), g(x) ≤ (1 + t) g(y), and x has a neighbour within 2 g(x) / (1 − t);
 //! - β = 1 + 2t instead of (1 + t) / (1 − t) in Theorem 5.5: D = ‖x − y‖ ≤ g(y) has
 //!   β g(y) + g(x) ≥ (1 + β) g(y) − t D ≥ (2 + t) D.
 //!
 //! # Other rules
-//! With the smaller of g(x) and g(y) (their *smaller-disks*) the same bound follows with more points, since it asks for less
-//! distance. With the larger (*bigger-disks*) the ball around the circumcentre may be one of the paper's, and 1/2 − t is all that
-//! follows.
+//! With the smaller of g(x) and g(y) (*smaller-disks* in that paper) the same bound follows, with more points, since it
+//! asks for less distance. With the larger (*bigger-disks*) the circle that holds the circumcentre may be one of the
+//! paper's rule, and only 1/2 − t follows.
 //!
 //! # Reference
 //! S. A. Mitchell, A. Rand, M. S. Ebeida, C. Bajaj, "Variable radii Poisson-disk sampling", 24th Canadian Conference on
@@ -72,15 +77,15 @@ use crate::meshers::biting::beyond::crossing::PassingLine;
 use crate::meshers::biting::front::Front;
 use crate::theory::Rule;
 
-/// Radii and distances are rounded: searches reach farther by this factor.
+/// Radii and distances are rounded, so searches reach farther by this factor.
 const ROOM: f64 = 1.0 + 1e-6;
 
-/// A point where the border of what a point has eaten meets that of another.
+/// A point where the borders of what two points have eaten meet.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::meshers::biting) struct Meeting {
-    /// Relative to the first of the two points.
+    /// The place, relative to the first of the two points.
     pub relative: DVec2,
-    /// The point is eaten by all that are nearer than this: g there, by the rule of the later point.
+    /// By the rule of the later point, g there: every point nearer than that has eaten the place.
     pub reach: Option<f64>,
 }
 
@@ -120,8 +125,8 @@ impl Front<'_> {
         }
     }
 
-    /// Where the border of what `disc` eats meets that of the one at `index` of those near it. By the rule of the later point,
-    /// only meetings that no other disc near it has eaten.
+    /// Where the border of what `disc` eats meets that of `near[index]`. By the rule of the later point, only meetings
+    /// that no other disc of `near` has eaten.
     pub(in crate::meshers::biting) fn meetings(
         &self,
         disc: Disc,
@@ -160,7 +165,7 @@ impl Front<'_> {
             crossings.extend(line.crossings(range)?);
         }
         let meeting = |crossing: &crate::meshers::biting::beyond::crossing::Crossing| {
-            // Exactly the point of the paper's rule if f is constant.
+            // If f is constant, this is the same point as by the paper's rule, bit by bit.
             let circle = Near {
                 radius: crossing.radius,
                 ..*other
@@ -177,8 +182,8 @@ impl Front<'_> {
         Ok(crossings.iter().map(meeting).collect())
     }
 
-    /// The part of the bisector of a disc's centre and a near one that may hold front vertices: in the box of the domain, not
-    /// too far away, and with no third centre nearer, up to rounding.
+    /// The part of the bisector of a disc's centre and a near one that may hold front vertices: in the box of the
+    /// domain, not too far away, and, up to rounding, no nearer to a third centre.
     fn bisector(&self, disc: Disc, near: &[Near], index: usize) -> Option<Bisector> {
         let other = &near[index];
         let reach = ROOM * disc.radius.min(other.radius) / (1.0 - self.radii.t());
@@ -199,7 +204,7 @@ impl Front<'_> {
             if k == index || self.beside_notch[third.id as usize] {
                 continue;
             }
-            // Nearer to the third centre u are the points p with 2 p·u > ‖u‖².
+            // The points p with 2 p·u > ‖u‖² are nearer to the third centre u.
             let along = 2.0 * bisector.direction.dot(third.offset);
             let beyond = third.distance_squared - other.offset.dot(third.offset);
             if along > 0.0 {
@@ -223,8 +228,8 @@ struct Bisector {
 }
 
 impl Bisector {
-    /// The parts of it, `away` from the two centres, that are farther from them than `radius`: nearer ones are eaten, since g
-    /// cannot fall so fast.
+    /// The parts of the bisector that are farther than `radius` from the two centres, of which its foot is `away`.
+    /// Nearer parts are eaten, since g cannot fall so fast.
     fn outside(&self, radius: f64, away: f64) -> impl Iterator<Item = [f64; 2]> + use<> {
         let across = radius * radius - away * away;
         let parts = if across > 0.0 {
@@ -252,12 +257,13 @@ mod tests {
     /// A piece from (0, 0) to (c, 0) where g is at least `size` − t ‖x − q‖.
     struct Piece {
         length: f64,
-        /// How far q is along it.
+        /// The place of q along the piece.
         q: f64,
         size: f64,
     }
 
-    /// The least of g(x) sin φ / c over the points of a box that §6.3 allows, and where it is; g as small as it may be.
+    /// The least of g(x) sin φ / c over the points of a box that §6.3 allows, with g as small as it may be, and where
+    /// it is.
     fn least(piece: &Piece, t: f64, [low, high]: [[f64; 2]; 2], side: usize) -> Option<(f64, [f64; 2])> {
         let mut best: Option<(f64, [f64; 2])> = None;
         let step = |axis: usize| (high[axis] - low[axis]) / side as f64;

@@ -1,9 +1,10 @@
-//! Biting by the rule of the later point: its bounds, the rule itself by loops, and where the two rules agree.
+//! Biting by the rule of the later point: its bounds, the rule itself checked by loops, and cases in which the two
+//! rules agree.
 
 use crate::meshers::biting::tests::*;
 use crate::theory::Claim;
 
-/// Bites by the rule of the later point, and judges by it.
+/// The mesh by the rule of the later point, and its certificate by the same rule.
 fn by_later(name: &str, spec: &str, t: f64, c_b: f64, order: Order) -> (Mesh, crate::quality::Certificate) {
     let case = case(name, spec, t, c_b);
     let mesher = Biting {
@@ -64,7 +65,7 @@ fn where_the_spacing_is_constant_the_rules_agree() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
-    /// Every point of the domain has a vertex within g, and no vertex has an earlier one within g, by loops.
+    /// Checked by loops: every point of the domain has a vertex within g, and no vertex has an earlier one within g.
     #[test]
     fn the_rule_of_the_later_point_is_kept(
         low in 0.03..0.3f64,
