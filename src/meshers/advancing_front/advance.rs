@@ -9,7 +9,8 @@ use crate::meshers::MeshError;
 const NEIGHBOURS: usize = 4;
 
 impl Front<'_> {
-    /// Makes the triangle of the base and an apex: sides that were front leave it, the others join it and are returned.
+    /// Makes the triangle of the base and an apex. Sides that were on the front leave it; the others join it and are
+    /// returned.
     pub fn advance(&mut self, base: &Base, apex: Apex) -> Result<[Option<u32>; 2], MeshError> {
         let [a, b] = base.ends;
         let node = match apex {
@@ -42,7 +43,7 @@ impl Front<'_> {
         Ok(sides)
     }
 
-    /// Puts the triangle into the mesh, and into the neighbours' sides.
+    /// Adds the triangle to the mesh, and notes it across the sides of its neighbours.
     fn add_triangle(&mut self, base: u32, corners: [u32; 3], closed: [Option<u32>; 2], is_seam: bool) -> u32 {
         let triangle = self.triangles.len() as u32;
         let mut across = [OPEN; 3];
@@ -118,7 +119,7 @@ impl Front<'_> {
         }
     }
 
-    /// The edges that enter and leave the apex on both sides of the triangle; none where nothing else touches it.
+    /// The edges that enter and leave the apex on both sides of the triangle; none if nothing else touches the apex.
     fn wedge_at_apex(&self, node: u32, to_b: u32, from_a: u32) -> Option<(u32, u32)> {
         let towards = self.at(self.edge(from_a).from);
         let mut others = self
@@ -132,7 +133,7 @@ impl Front<'_> {
         Some((self.edge(out).before, out))
     }
 
-    /// Takes away the edge from a node to itself.
+    /// Removes the edge from a node to itself.
     fn remove_lonely(&mut self, node: u32) {
         if let Some(lonely) = self.between(node, node) {
             self.remove_edge(lonely);

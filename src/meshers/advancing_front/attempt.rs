@@ -2,12 +2,12 @@
 //!
 //! 1. the best apex nearby, if it ranks [`AdvancingFront::accept`] degrees;
 //! 2. once all other faces are done: the same, for half of that;
-//! 3. the search widened, new nodes no more ([`Tally::widened`]), for a quarter of that;
-//! 4. the elements around it deleted and made anew ([`Front::open_up`]), a bounded number of times at one place;
+//! 3. the search is widened, without new nodes ([`Tally::widened`]), for a quarter of that;
+//! 4. the elements around it are deleted and made anew ([`Front::open_up`]), a bounded number of times at one place;
 //! 5. the widest search, for a triangle of any angle that is more than a rounding error.
 //!
-//! What is still front then is closed by force. No more is asked of a face than half of the angles that the front has at its
-//! ends: within a narrow input angle no triangle is better.
+//! What is then left of the front is closed by force. A triangle never needs more than half of the angles that the
+//! front has at the ends of the face: in a narrow input angle no triangle is better.
 //!
 //! [`AdvancingFront::accept`]: super::AdvancingFront::accept
 //! [`Tally::widened`]: super::Tally::widened
@@ -17,14 +17,14 @@ use super::front::Front;
 use super::ideal_point::Base;
 use super::queue::Ticket;
 
-/// The number of attempts at a face; one that failed them all is left to be closed by force.
+/// The number of attempts at a face. If all fail, the face is closed by force in the end.
 pub(super) const ATTEMPTS: u8 = 4;
 
 /// The search radius grows by this factor when it is widened, which happens at most twice.
 const WIDER: f64 = 4.0;
 
-/// The last attempt takes what ranks this share of [`AdvancingFront::accept`]: by default one degree, since a front that
-/// runs along collinear nodes of the boundary would leave a sliver of a rounding error there.
+/// The last attempt takes what ranks this share of [`AdvancingFront::accept`]: by default one degree, since where a
+/// front runs along collinear nodes of the boundary, a smaller share would accept slivers made by rounding errors.
 ///
 /// [`AdvancingFront::accept`]: super::AdvancingFront::accept
 const LAST: f64 = 1.0 / 30.0;
@@ -44,7 +44,7 @@ impl Picked {
 }
 
 impl Front<'_> {
-    /// The next face of the front that is to be a base; none if all are done or were tried in vain.
+    /// The next face of the front to be a base; none if all are done or were tried in vain.
     pub fn pick_face(&mut self) -> Option<Picked> {
         loop {
             let Some(ticket) = self.queue.pop() else {

@@ -5,12 +5,12 @@ use crate::geometry::DVec2;
 use crate::mesh::Piece;
 use crate::meshers::MeshError;
 
-/// s is sampled along a segment in steps of this share of it. s being t-Lipschitz, the trapezoids between are accurate
-/// to some thousandths of a piece.
+/// s is sampled along a segment in steps of this share of it. Since s is t-Lipschitz, the trapezoids between are
+/// accurate to some thousandths of a piece.
 const STEP: f64 = 0.25;
 
-/// Makes the nodes on the boundary and the front through them, and returns the pieces. Inner segments are front on both
-/// sides; vertices that no segment touches become nodes.
+/// Makes the nodes on the boundary and the front through them, and returns the pieces. The front runs along both sides
+/// of an inner segment; vertices that no segment touches become nodes.
 pub(super) fn boundary(front: &mut Front) -> Result<Vec<Piece>, MeshError> {
     let domain = front.domain;
     for &vertex in domain.vertices() {
@@ -34,19 +34,19 @@ pub(super) fn boundary(front: &mut Front) -> Result<Vec<Piece>, MeshError> {
     Ok(pieces)
 }
 
-/// The nodes that cut a segment into a whole number of pieces on each of which ∫ 1/s is the same and as near to 1 as
-/// can be, with s there.
+/// The nodes that cut a segment into a whole number of pieces, each with s there. ∫ 1/s is the same on each piece, and
+/// as near to 1 as can be.
 fn cuts(front: &Front, segment: usize) -> Result<Vec<(DVec2, f64)>, MeshError> {
     let [start, end] = front.domain.ends(segment);
     let length = start.distance(end);
     let place = |along: f64| start.lerp(end, along / length);
     let (mut along, mut size) = (0.0, front.sizing.at(start)?);
-    // Position, pieces up to there, s there.
+    // For each sample: position, number of pieces up to there, s there.
     let mut samples = vec![(0.0, 0.0, size)];
     let mut pieces = 0.0;
     while along < length {
         let step = (STEP * size).min(length - along);
-        // A step to within a rounding error of the end goes to the end.
+        // A step that would leave less than half a step goes to the end.
         let next = if length - (along + step) <= 0.5 * step {
             length
         } else {
@@ -75,7 +75,7 @@ fn cuts(front: &Front, segment: usize) -> Result<Vec<(DVec2, f64)>, MeshError> {
     Ok(found)
 }
 
-/// Makes the pieces front on their inner sides, and links it.
+/// Makes the front along the inner sides of the pieces, and links its edges.
 fn open(front: &mut Front, pieces: &[Piece]) {
     let domain = front.domain;
     for piece in pieces {

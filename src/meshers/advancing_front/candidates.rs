@@ -1,7 +1,8 @@
-//! Apexes over a base, ranked, and the exact test of the triangle each would make.
+//! Apexes over a base, ranked, and the exact test of the triangle that each would make.
 //!
-//! A candidate's rank is an angle in degrees: the smallest angle of its triangle, or less where what it leaves of the
-//! front can only be closed by smaller ones: the wedges beside the new sides, and nodes and edges too near to them.
+//! A candidate's rank is an angle in degrees: the smallest angle of its triangle, or less if what it leaves of the
+//! front can only be closed with smaller angles. The rank counts the wedges beside the new sides, and nodes and edges
+//! too near to them.
 
 use super::front::Front;
 use super::ideal_point::{Base, Place};
@@ -9,7 +10,7 @@ use crate::geometry::predicates::{Meeting, orient2d, segments_meet};
 use crate::geometry::segments::closest_on_segment;
 use crate::geometry::{DVec2, Rect, turn};
 
-/// What a candidate connects the base to.
+/// The node to which a candidate connects the base.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Apex {
     /// A node of the front.
@@ -21,16 +22,16 @@ pub(super) enum Apex {
 /// A candidate that ranks this number of degrees is taken without trying other places for a new node.
 const GOOD: f64 = 50.0;
 
-/// A new node ranks this share lower than it would as a node of the front: of two good triangles, the one without a
-/// new node is the better.
+/// A new node ranks by this factor lower than it would as a node of the front: of two good triangles, the one without a
+/// new node is better.
 const NEW_NODE: f64 = 0.95;
 
-/// What the rank of a new node is multiplied by: one nearer to the base than δ₁ makes smaller elements than asked for.
+/// The factor of a new node's rank: one nearer to the base than δ₁ makes smaller elements than asked for.
 fn weight(place: Place) -> f64 {
     NEW_NODE * place.share * place.share
 }
 
-/// Height of an equilateral triangle over its side: nothing nearer than that to a new side is in place.
+/// Height of an equilateral triangle over its side: whatever is nearer than that to a new side is too near.
 const HEIGHT: f64 = 0.866_025_403_784_438_6;
 
 /// A front edge near the base.
@@ -62,10 +63,10 @@ fn left_of(p: DVec2, q: DVec2, point: DVec2) -> bool {
 struct Candidate {
     apex: Apex,
     at: DVec2,
-    /// Where a new node stands.
+    /// Where a new node lies.
     place: Place,
     rank: f64,
-    /// Whether the rank counts everything, and the triangle was found valid.
+    /// Whether the triangle was found valid and the rank counts everything.
     examined: bool,
 }
 
@@ -164,7 +165,7 @@ impl Front<'_> {
         candidates.collect()
     }
 
-    /// Examines candidates from the highest rank down until one that was examined ranks highest.
+    /// Examines candidates, highest rank first, until an examined one ranks highest.
     fn best(&self, base: &Base, near: &[Near], list: &mut Vec<Candidate>, least: f64) -> Option<Candidate> {
         loop {
             let (place, first) = list.iter().enumerate().reduce(|best, other| {
@@ -199,8 +200,8 @@ impl Front<'_> {
         Some(())
     }
 
-    /// What the triangle with its apex at `at` (a front node, if `node` is one) ranks by its angles and the wedges it
-    /// leaves; none if it does not fit into the wedges.
+    /// The rank of the triangle with its apex at `at` (the front node `node`, if there is one) by its angles and the
+    /// wedges it leaves; none if it does not fit into the wedges.
     fn rank(&self, base: &Base, node: Option<u32>, at: DVec2) -> Option<f64> {
         let (along, to_a, to_b) = (base.b - base.a, base.a - at, base.b - at);
         let angles = [turn(along, -to_a), turn(-to_b, -along), turn(to_a, to_b)];
@@ -239,8 +240,8 @@ impl Front<'_> {
         least.is_finite().then_some(least)
     }
 
-    /// The exact test of a triangle, and how much room it leaves as an angle: none where it is not positive, holds a
-    /// front node, or one of its new sides meets the front.
+    /// The exact test of a triangle. Returns the room that it leaves, as an angle; none if the triangle is not
+    /// positive, if it holds a front node, or if one of its new sides meets the front.
     fn examine(&self, base: &Base, apex: Apex, at: DVec2, near: &[Near]) -> Option<f64> {
         if orient2d(base.a, base.b, at) <= 0.0 {
             return None;
@@ -267,13 +268,13 @@ impl Front<'_> {
     }
 }
 
-/// A base of less than this share of δ₁ is short: over it new nodes may be off the bisector.
+/// A base shorter than this share of δ₁ counts as short: over it, new nodes may be off the bisector.
 const SHORT_BASE: f64 = 0.9;
 
-/// An edge of this share of δ₁ is not too short yet.
+/// An edge shorter than this share of δ₁ counts as too short.
 const SHORT: f64 = 1.0;
 
-/// How far towards the middle of a triangle counts as inside of it: far beyond rounding, and near to its side.
+/// How far towards the middle of a triangle a point is moved to be inside it: far beyond rounding, but near its side.
 const INWARD: f64 = 1e-6;
 
 /// How far around a cleft the front is examined, as a share of the base.
@@ -312,7 +313,7 @@ impl Trial<'_> {
         self.base.ends.contains(&node) || self.node == Some(node)
     }
 
-    /// How much room a front edge leaves, 1 being that of an equilateral triangle; none if it is in the way.
+    /// How much room a front edge leaves, where 1 is that of an equilateral triangle; none if it is in the way.
     fn against(&self, edge: &Near) -> Option<f64> {
         let corners = [self.is_corner(edge.from), self.is_corner(edge.to)];
         if corners == [true, true] {
@@ -326,14 +327,15 @@ impl Trial<'_> {
             let inside = (self.base.a + self.base.b + self.at) / 3.0;
             for (end, corner) in [self.base.a, self.base.b].into_iter().enumerate() {
                 let foot = closest_on_segment([corner, self.at], edge.p);
-                // From a little inside the triangle: a node on the side sees nothing of the side itself.
+                // From a little inside the triangle, since a node on the side does not see the side itself.
                 if !self.closes[end] && edge.sees(foot.lerp(inside, INWARD)) {
                     room = room.min(foot.distance(edge.p) / (HEIGHT * self.sides[end].min(edge.size)));
                 }
             }
         }
         if self.node.is_none() && !corners[0] && edge.sees(self.at) {
-            // Too near to a node is too short an edge: the row has more nodes than s asks for.
+            // If the new node is too near to another, the edge between them will be too short: the row has more nodes
+            // than s asks for.
             let size = SHORT * self.size.min(edge.size);
             room = room.min(edge.p.distance_squared(self.at) / (size * size));
         }

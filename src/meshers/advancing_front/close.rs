@@ -5,7 +5,7 @@ use crate::delaunay::triangulate_cavities;
 use crate::meshers::MeshError;
 
 impl Front<'_> {
-    /// Triangulates what the front still encloses by the constrained Delaunay triangulation of its nodes.
+    /// Fills what the front still encloses with the constrained Delaunay triangulation of the front's nodes.
     pub fn close_by_force(&mut self) -> Result<(), MeshError> {
         if self.length == 0 {
             return Ok(());

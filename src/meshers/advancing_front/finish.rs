@@ -7,7 +7,7 @@ impl Front<'_> {
     /// The mesh behind the front, once nothing is left of it.
     pub fn into_mesh(self, pieces: Vec<Piece>) -> Mesh {
         let domain = self.domain;
-        // Nodes of deleted elements may be in no element now; those on the boundary always are.
+        // Nodes of deleted elements may be in no element now; nodes on the boundary always are in one.
         let mut number = vec![NONE; self.nodes.len()];
         let live = || self.triangles.iter().filter(|triangle| !triangle.is_deleted());
         for corner in live().flat_map(|triangle| triangle.corners) {

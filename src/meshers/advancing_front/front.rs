@@ -1,8 +1,9 @@
-//! The front: the boundary of what is not meshed yet, as directed edges with that on their left.
+//! The front: the boundary of what is not meshed yet, as directed edges with the unmeshed side on their left.
 //!
-//! Each edge knows its neighbours along the front, each node the front edges that leave and enter it; a node where the front
-//! touches itself has several of each. Edges are indexed in space by [`SegmentGrid`]. A vertex that no segment
-//! touches is a front of its own: an edge from the node to itself, which disappears when the node is connected.
+//! Each edge has links to its neighbours along the front, and each node to the front edges that leave and enter it. A
+//! node where the front touches itself has several of each. Edges are indexed in space by [`SegmentGrid`]. A vertex
+//! that no segment touches is a front of its own: an edge from the node to itself, which disappears when the node is
+//! connected.
 
 use super::queue::Queue;
 use super::{AdvancingFront, Tally};
@@ -23,7 +24,7 @@ pub(super) struct Node {
     pub at: DVec2,
     /// s there, so that it is evaluated once per node.
     pub size: f64,
-    /// First of the front edges that leave it, and of those that enter it.
+    /// The first of the front edges that leave it, and the first of those that enter it.
     first_out: u32,
     first_in: u32,
 }
@@ -45,9 +46,9 @@ pub(super) struct Edge {
     pub face: u32,
     /// Distinguishes the edge from earlier ones in its slot; [`NONE`] once it is gone.
     pub serial: u32,
-    /// In which row it was made: 0 on the boundary.
+    /// The row in which it was made: 0 on the boundary.
     pub row: u32,
-    /// How often it could not be closed, up to the number of [`super::attempt::ATTEMPTS`].
+    /// How often it could not be closed, at most [`super::attempt::ATTEMPTS`].
     pub attempts: u8,
     /// Whether it joins two parts of the front that were far from each other along it.
     pub bridges: bool,
@@ -65,7 +66,7 @@ pub(super) struct Triangle {
     pub is_seam: bool,
 }
 
-/// Across a side of a triangle: not meshed yet.
+/// The mark across a side of a triangle beyond which nothing is meshed yet.
 pub(super) const OPEN: u32 = u32::MAX - 1;
 
 impl Triangle {
@@ -94,7 +95,7 @@ pub(super) struct Front<'a> {
     pub queue: Queue,
     serials: u32,
     pub triangles: Vec<Triangle>,
-    /// Where the front was opened up, and how often.
+    /// The places where the front was opened up.
     pub openings: SegmentGrid,
     pub opened_at: Vec<DVec2>,
     pub tally: Tally,
@@ -129,7 +130,7 @@ impl<'a> Front<'a> {
         &self.edges[edge as usize]
     }
 
-    /// Whether edge number `edge` is still the one it was when it had that serial number.
+    /// Whether the slot `edge` still holds the edge with that serial number.
     pub fn stands(&self, edge: u32, serial: u32) -> bool {
         self.edges[edge as usize].serial == serial
     }
@@ -251,14 +252,14 @@ impl<'a> Front<'a> {
         self.edges[next as usize].before = edge;
     }
 
-    /// Links all edges at a node anew: an edge that leaves has what is not meshed on its counter-clockwise side, up to the
-    /// next edge, which is the one that enters before it along the front.
+    /// Links all edges at a node anew. Counter-clockwise from an edge that leaves lies what is not meshed, up to the
+    /// next edge: that one enters the node, and comes before the leaving one along the front.
     pub fn relink(&mut self, node: u32) {
         let centre = self.at(node);
         let mut around: Vec<(DVec2, bool, u32)> = Vec::new();
         around.extend(self.leaving(node).map(|e| (self.at(self.edge(e).to), true, e)));
         around.extend(self.entering(node).map(|e| (self.at(self.edge(e).from), false, e)));
-        // Where both sides of a segment are open, the edge that enters closes the sector before.
+        // If both sides of a segment are open, the edge that enters closes the sector before.
         around.sort_by(|p, q| by_angle(centre, p.0, q.0).then(p.1.cmp(&q.1)));
         for (k, &(_, leaves, edge)) in around.iter().enumerate() {
             let (_, other_leaves, other) = around[(k + 1) % around.len()];
@@ -289,7 +290,7 @@ impl<'a> Front<'a> {
         })
     }
 
-    /// Puts an edge in the queue as a base, and as a cleft where the next edge makes one with it.
+    /// Puts an edge in the queue as a base, and as a cleft if the next edge forms one with it.
     pub fn enqueue(&mut self, edge: u32) {
         let this = self.edges[edge as usize];
         let length = self.at(this.from).distance(self.at(this.to));
@@ -297,7 +298,7 @@ impl<'a> Front<'a> {
         self.enqueue_cleft(edge);
     }
 
-    /// Puts an edge in the queue ahead of others where it makes a cleft with the next one.
+    /// Puts an edge in the queue ahead of others if it forms a cleft with the next one.
     pub fn enqueue_cleft(&mut self, edge: u32) {
         let this = self.edges[edge as usize];
         if this.next != edge && self.wedge(edge) < self.method.cleft.to_radians() {

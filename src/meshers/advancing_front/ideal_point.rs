@@ -26,7 +26,7 @@ pub(super) struct Base {
 pub(super) struct Place {
     /// How long the new sides should be, in δ₁.
     pub share: f64,
-    /// How far the node is off the bisector, along the base and in its length.
+    /// How far the node is off the bisector, along the base, as a share of its length.
     pub shift: f64,
 }
 
@@ -37,8 +37,8 @@ impl Place {
         Self { share, shift }
     }
 
-    /// Other places to try: nearer to the base where there is no room for the ideal one, and beside the bisector, where the
-    /// row is to have fewer nodes than bases.
+    /// Other places to try: nearer to the base, in case there is no room for the ideal one, and beside the bisector, in
+    /// case the row is to have fewer nodes than bases.
     pub const OTHERS: [Self; 7] = [
         Self::new(0.85, 0.0),
         Self::new(0.7, 0.0),
@@ -66,7 +66,7 @@ impl Base {
 }
 
 impl Front<'_> {
-    /// The ideal point of a base: at distance δ₁ from both of its ends, with δ₁ = s, clamped to
+    /// The base and its ideal point, at distance δ₁ from both of its ends: s, clamped to between
     /// [`super::AdvancingFront::low`] and [`super::AdvancingFront::high`] times the base.
     pub fn ideal_point(&self, edge: u32) -> Base {
         let this = *self.edge(edge);
@@ -92,8 +92,8 @@ impl Front<'_> {
         size.clamp(self.method.low * length, self.method.high * length)
     }
 
-    /// A new node at a place over the base, with s there: the mean of s at the base and at the apex replaces
-    /// s at the base alone. NaN if there is no s, as may be outside the domain.
+    /// A new node at a place over the base, with s there. Its place follows from the mean of s at the base and at a
+    /// first apex, instead of s at the base alone. s is NaN if it has no value there, as may be outside the domain.
     pub fn new_apex(&self, base: &Base, place: Place) -> (DVec2, f64) {
         let first = base.apex_at(base.side, place);
         let Ok(size) = self.sizing.at(first) else {

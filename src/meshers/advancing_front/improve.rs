@@ -49,7 +49,7 @@ fn swap_to_delaunay(mesh: &mut Mesh) {
     }
 }
 
-/// Makes the triangles on both sides of a piece forget each other.
+/// Removes the links between the triangles on both sides of a piece.
 fn cut(adjacency: &Adjacency, triangles: &[[u32; 3]], across: &mut [[u32; 3]], a: u32, b: u32) {
     let Some(edge) = adjacency.find(a, b).map(|edge| adjacency.edges()[edge]) else {
         return;
@@ -114,7 +114,8 @@ fn fixed(mesh: &Mesh) -> Vec<bool> {
     fixed
 }
 
-/// Moves a node to the mean of its neighbours, or half of the way there, if that makes the smallest angle around it larger.
+/// Moves a node to the mean of its neighbours, or half the way there, if that makes the smallest angle around it
+/// larger.
 fn move_to_middle(mesh: &mut Mesh, node: usize, around: &[u32]) {
     let old = mesh.points[node];
     let others = |triangle: u32| {

@@ -1,49 +1,52 @@
 //! The classic advancing front: elements one at a time, or a layer at a time (§3).
 //!
 //! # Idea
-//! The front is the boundary of what is not meshed yet, at first that of the domain, cut into pieces of about s. Pick a
-//! face of it, put a triangle on that, connecting it to a node of the front or to a new one, and so move the front
-//! inward until nothing is left. Faces of clefts and small faces go first.
+//! The front is the boundary of what is not meshed yet: at first the boundary of the domain, cut into pieces of about
+//! s. Pick a face of the front and put a triangle on it, with its apex at a node of the front or at a new node. This
+//! moves the front inward; repeat until nothing is left. Faces of clefts and small faces go first.
 //!
 //! # Steps
 //! 1. [`boundary::boundary`] cuts the segments into pieces on which ∫ 1/s is about 1;
 //! 2. [`attempt`] picks a face (`pick_face`): clefts, then the shortest, then those that could not be closed;
-//! 3. [`ideal_point`] computes where the apex should be: at distance δ₁ = s from both ends, clamped to \[0.55, 2\] × base;
-//! 4. [`candidates`] ranks the nodes of the front near that point against it and points below it on the bisector, and
-//!    takes the best one whose triangle passes the exact test against the front nearby;
+//! 3. [`ideal_point`] computes where the apex should be: at distance δ₁ from both ends, δ₁ being s clamped to \[0.55,
+//!    2\] × base;
+//! 4. [`candidates`] ranks that point, points below it on the bisector, and the nodes of the front nearby, and takes
+//!    the best one whose triangle passes the exact test against the front nearby;
 //! 5. [`advance`] makes the triangle and moves the front;
-//! 6. a face that cannot be closed well waits, then searches wider, then has the elements around it deleted and made anew
-//!    ([`open_up`]);
+//! 6. a face that cannot be closed well waits; then the search is widened; then the elements around it are deleted and
+//!    made anew ([`open_up`]);
 //! 7. what is left then is closed by force ([`close`]);
 //! 8. [`rows`] does all this a layer at a time, with paving's row choice, closure check and seaming of clefts;
 //! 9. [`improve`] swaps edges and smooths, if asked to.
 //!
 //! # Guarantee
-//! None of the paper's bounds, and no Delaunay triangulation. The structural checks hold: each triangle is tested against the
-//! front by exact predicates before it is made, and a valid one always exists among the nodes of the front, since the
-//! constrained triangulation of what is left has one over each base. It always ends: a face is tried
-//! [`attempt::ATTEMPTS`] times, new nodes keep their distance from the front, and no place is opened up more than twice.
+//! None of the paper's bounds, and no Delaunay triangulation. The structural checks hold: each triangle is tested
+//! against the front by exact predicates before it is made. A valid triangle with its apex at a node of the front
+//! always exists, since the constrained triangulation of what is left has one over each base. The method always ends: a
+//! face is tried [`attempt::ATTEMPTS`] times, new nodes keep their distance from the front, and no place is opened up
+//! more than twice.
 //!
 //! # Cost
 //! O(log n) per triangle for the queue and O(1) for the rest, with one or two evaluations of s per node and none elsewhere.
 //!
-//! # Deviations (and why)
-//! * The inventors rank front nodes by their distance from the ideal point. Here a candidate ranks by the smallest angle it
-//!   leads to, in its triangle and in the wedges it leaves beside it: the same near the ideal point, better where fronts meet.
+//! # Deviations from the paper (and why)
+//! * The inventors rank front nodes by their distance from the ideal point. Here a candidate ranks by the smallest
+//!   angle that it leads to, in its triangle and in the wedges beside it. Near the ideal point the ranks agree; where
+//!   fronts meet, angles rank better.
 //! * Lengths that agree to 8 bits count as equal, first come first served, so that on uniform s the front moves in rows and
 //!   not at the whim of rounding.
-//! * Over a base much shorter than s a new node may stand beside the bisector ([`ideal_point::Place::OTHERS`]), so that a
-//!   row gets fewer nodes than it has bases: what paving calls row adjustment. Without it rows keep their number of nodes
-//!   away from a fine boundary until s is twice the base, and then break up.
+//! * Over a base much shorter than s, a new node may lie beside the bisector ([`ideal_point::Place::OTHERS`]), so that
+//!   a row gets fewer nodes than it has bases. Paving calls this row adjustment. Without it rows keep their number of
+//!   nodes away from a fine boundary until s is twice the base, and then break up.
 //! * The literature stops when a front cannot close. Here the last resort is the constrained Delaunay triangulation of what
 //!   is left, counted as `closed_by_force`.
 //! * Paving makes quadrilaterals; its controls are kept, its smoothing of rows is not: see [`AdvancingFront::smooth`].
-//! * [`Mesh::forced_pieces`] is 0: the method never asks for a Delaunay triangulation that pieces could be missing from.
+//! * [`Mesh::forced_pieces`] is 0: the method makes no Delaunay triangulation from which pieces could be missing.
 //!
 //! # Where fronts meet
-//! The paper says that quality is lost there. Marked in [`Mesh::seams`] are the triangles that join parts of the front more
-//! than four edges apart along it, those that go on from such a triangle without a new node, and all that share a vertex
-//! with one of them.
+//! The paper says that quality is lost there. [`Mesh::seams`] marks three kinds of triangles: those that join parts of
+//! the front more than four edges apart along it, those that continue such a triangle without a new node, and all that
+//! share a vertex with one of these.
 //!
 //! # Reference
 //! J. Peraire, M. Vahdati, K. Morgan, O. C. Zienkiewicz, "Adaptive remeshing for compressible flow computations" (1987), for
@@ -96,14 +99,15 @@ pub struct AdvancingFront {
     /// How far from the ideal point front nodes are candidates, in δ₁; 0.5 to 10. Default 1.5: nodes farther away make angles
     /// under 30°. It is multiplied by 4 and by 16 when a search is widened.
     pub search: f64,
-    /// Front nodes with less than this angle of what is not meshed are clefts and go first, degrees; 0 to 120. Default 80:
-    /// up to there one triangle closes them better than two.
+    /// A front node where the angle of what is not meshed is less than this is a cleft and goes first, degrees; 0 to
+    /// 120. Default 80: up to there one triangle closes a cleft better than two.
     pub cleft: f64,
-    /// The smallest angle a triangle and what it leaves must promise at the first attempt, degrees; 0 to 60. Default 30.
+    /// The rank that a triangle needs at the first attempt: the smallest angle in it and in what it leaves, degrees; 0
+    /// to 60. Default 30.
     pub accept: f64,
-    /// δ₁ is at least this much of the base; 0.5 to 1. Default 0.55 (Peraire et al.).
+    /// δ₁ is at least this share of the base; 0.5 to 1. Default 0.55 (Peraire et al.).
     pub low: f64,
-    /// δ₁ is at most this much of the base; 1 to 10. Default 2 (Peraire et al.).
+    /// δ₁ is at most this multiple of the base; 1 to 10. Default 2 (Peraire et al.).
     pub high: f64,
     /// Sweeps of smoothing when the front is empty; 0 to 1000. Default 0.
     pub smooth: u32,
@@ -166,19 +170,19 @@ pub(super) const ENTRY: Entry = Entry {
             "accept",
             "0 to 60",
             "30.0",
-            "smallest angle a triangle must promise at first, degrees",
+            "smallest angle that a triangle must lead to at first, degrees",
         ),
         parameter(
             "low",
             "0.5 to 1",
             "0.55",
-            "new sides are at least this much of their base (Peraire et al.)",
+            "new sides are at least this share of their base (Peraire et al.)",
         ),
         parameter(
             "high",
             "1 to 10",
             "2.0",
-            "new sides are at most this much of their base (Peraire et al.)",
+            "new sides are at most this multiple of their base (Peraire et al.)",
         ),
         parameter("smooth", "0 to 1000", "0", "sweeps of smoothing at the end"),
         parameter(
@@ -191,12 +195,12 @@ pub(super) const ENTRY: Entry = Entry {
     make: from_parameters::<AdvancingFront>,
 };
 
-/// What happened on the way.
+/// Counts of what happened during a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Tally {
     /// Searches that were widened.
     widened: usize,
-    /// Times the front was opened up, and elements deleted by that.
+    /// How often the front was opened up, and how many elements that deleted.
     opened: usize,
     reopened_elements: usize,
     /// Small openings closed at once.

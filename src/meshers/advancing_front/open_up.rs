@@ -8,7 +8,7 @@ use crate::geometry::{DVec2, Rect};
 /// Elements with a corner within this many δ₁ of the base's middle are deleted.
 const REACH: f64 = 1.5;
 
-/// The most times that the front is opened up at one place.
+/// How often the front is opened up at one place, at most.
 const TIMES: usize = 2;
 
 impl Front<'_> {
@@ -42,7 +42,8 @@ impl Front<'_> {
         times
     }
 
-    /// Elements behind the front near the base, and those they lead to, as far as they have a corner within reach.
+    /// Elements behind the front near the base, and those reached from them across sides, if they have a corner within
+    /// reach.
     fn elements_around(&self, base: &Base, middle: DVec2, reach: f64) -> Vec<u32> {
         let bounds = Rect {
             min: middle - reach,
@@ -119,8 +120,8 @@ impl Front<'_> {
         around.into_iter().for_each(|edge| self.requeue_untried(edge));
     }
 
-    /// Queues a face again, as if it had not been tried: what it sees has changed. A node that no other edge touches is
-    /// not a face.
+    /// Queues a face again as if it had not been tried, since its surroundings have changed. A node that no other edge
+    /// touches is not a face.
     pub fn requeue_untried(&mut self, edge: u32) {
         if self.edge(edge).next != edge {
             self.edges[edge as usize].attempts = 0;

@@ -16,9 +16,9 @@ pub(super) struct Ticket {
     pub edge: u32,
 }
 
-/// Above all orders within an attempt: set unless the edge was queued as one side of a cleft.
+/// A bit above the order within an attempt: set unless the edge was queued as one side of a cleft.
 const IS_BASE: u64 = 1 << 40;
-/// The attempt counts most.
+/// The attempt is in the highest bits, so it counts most.
 const ATTEMPT_SHIFT: u32 = 41;
 /// Lengths that agree to 8 bits of their mantissa are equal, so that rounding does not decide where all edges are alike.
 const LENGTH_SHIFT: u32 = 44;
@@ -37,7 +37,7 @@ impl Ticket {
 pub(super) struct Queue {
     advance: Advance,
     heap: BinaryHeap<Reverse<Ticket>>,
-    /// How many edges the present row has been given, row by row.
+    /// How many edges were queued in rows so far.
     in_row: u64,
 }
 

@@ -1,6 +1,6 @@
-//! Layer at a time, in the spirit of paving: rows are chosen and made whole, and small openings are closed at once.
+//! A layer at a time, in the spirit of paving: rows are chosen and completed, and small openings are closed at once.
 //!
-//! Clefts are seamed first here as in the other mode ([`super::queue`]).
+//! As in the other mode, clefts are seamed first ([`super::queue`]).
 
 use super::Advance;
 use super::candidates::Apex;
@@ -13,8 +13,8 @@ use crate::meshers::MeshError;
 const CLOSURE: usize = 6;
 
 impl Front<'_> {
-    /// Row choice: queues all of the front as the coming rows, loop by loop, the one of the shortest edges first, each from
-    /// its sharpest corner on. None if there is nothing to queue.
+    /// Row choice: queues the whole front as the coming rows, loop by loop. The loop with the shortest edges comes
+    /// first, and each begins at its sharpest corner. Returns whether anything was queued.
     pub fn begin_row(&mut self) -> bool {
         if self.method.advance != Advance::Row {
             return false;
@@ -41,7 +41,7 @@ impl Front<'_> {
         is_any
     }
 
-    /// The loop through an edge from its sharpest corner on, with its mean length.
+    /// The edges of the loop through an edge, from its sharpest corner on, with their mean length.
     fn row_from(&self, edge: u32) -> (f64, Vec<u32>) {
         let mut edges = vec![edge];
         let mut at = self.edge(edge).next;
@@ -64,7 +64,7 @@ impl Front<'_> {
         self.at(self.edge(edge).from).distance(self.at(self.edge(edge).to))
     }
 
-    /// Closure check: closes the openings that new edges bound, if they are small, by the best of their triangulations.
+    /// Closure check: closes small openings bounded by new edges, by the best of their triangulations.
     pub fn closure_check(&mut self, edges: [Option<u32>; 2]) -> Result<(), MeshError> {
         for edge in edges.into_iter().flatten() {
             let is_due = self.method.advance == Advance::Row && !self.stands(edge, NONE);
@@ -82,7 +82,7 @@ impl Front<'_> {
         Ok(())
     }
 
-    /// The nodes along the loop of an edge from its end on, if they are few and all different.
+    /// The nodes along the loop of an edge, from its end on, if they are few and all different.
     fn small_loop(&self, edge: u32) -> Option<Vec<u32>> {
         let mut corners = vec![self.edge(edge).to];
         let mut at = self.edge(edge).next;
@@ -97,7 +97,7 @@ impl Front<'_> {
         (corners.len() > 3).then_some(corners)
     }
 
-    /// Whether a front node other than the corners lies within the box around them: then this is left to other steps.
+    /// Whether a front node other than the corners lies within the box around them: other steps then close the opening.
     fn is_occupied(&self, corners: &[u32], points: &[DVec2], edge: u32) -> bool {
         let (bounds, face) = (Rect::around(points.iter().copied()), self.edge(edge).face);
         let mut is_occupied = false;

@@ -1,4 +1,4 @@
-//! What the certificate does not see; here whole meshes, their boundary and their seams.
+//! What the certificate does not check; in this file whole meshes, their boundary and their seams.
 
 use super::*;
 use crate::domain::gallery;
@@ -37,7 +37,7 @@ fn prepared(domain: &Domain, spec: &str) -> ControlSpacing {
     build(spec, domain, &options).expect("a spacing")
 }
 
-/// Meshes with c_b = 1 and has the structure judged.
+/// Meshes with c_b = 1, and checks the structure.
 fn meshed(method: &AdvancingFront, domain: &Domain, spec: &str) -> (Mesh, Statistics, Certificate, Trace) {
     let mut trace = Trace::default();
     let spacing = prepared(domain, spec).function;
@@ -91,8 +91,8 @@ fn assert_is_mesh(domain: &Domain, mesh: &Mesh) -> (Statistics, Certificate) {
     (statistics, certificate)
 }
 
-/// Found on the slanted sides of `two-arms`: a new side ran along three nodes that rounding put on one line, its middle
-/// node saw nothing of a side that it lay on, and triangles of 0° filled what was left.
+/// Found on the slanted sides of `two-arms`: a new side ran along three nodes that rounding had put on one line. The
+/// middle node did not see the side on which it lay, and triangles of 0° filled what was left.
 #[test]
 fn a_side_along_three_collinear_nodes_is_no_side() {
     let domain = domain("two-arms");

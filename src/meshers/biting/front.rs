@@ -63,8 +63,7 @@ struct Slot {
     discs: [u32; 2],
     /// The next vertex under each of the two circles.
     next: [u32; 2],
-    /// The number of this vertex, by which to tell it from earlier ones in the same slot; [`NONE`] once it is bitten
-    /// away.
+    /// Distinguishes this vertex from earlier ones in its slot; [`NONE`] once it is bitten away.
     serial: u32,
 }
 

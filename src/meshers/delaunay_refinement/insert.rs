@@ -1,4 +1,4 @@
-//! Points into bad triangles, one at a time.
+//! Inserts points into bad triangles, one at a time.
 
 use super::pieces::{FLOOR, Left};
 use super::queue::Ticket;
@@ -8,12 +8,12 @@ use crate::delaunay::{Cavity, Location};
 use crate::geometry::DVec2;
 use crate::meshers::MeshError;
 
-/// A point that encroaches upon a piece at an acute vertex is no nearer to it than this share of its distance to the
-/// nearest vertex.
+/// A point that encroaches upon a piece at an acute vertex must not be nearer to it than this share of the point's
+/// distance to the nearest vertex.
 const CLEARANCE: f64 = 0.5;
 
 impl Refiner<'_> {
-    /// Breaks bad triangles until none is left but those that must be.
+    /// Breaks bad triangles until none is left but those that must stay as they are.
     pub fn insert_circumcentres(&mut self) -> Result<(), MeshError> {
         self.tests_triangles = true;
         for triangle in 0..self.triangulation.triangle_count() as u32 {
@@ -30,7 +30,7 @@ impl Refiner<'_> {
         Ok(())
     }
 
-    /// Inserts the circumcentre or off-centre of a bad triangle; or, where it encroaches upon pieces, queues these to be
+    /// Inserts the circumcentre or off-centre of a bad triangle. If that encroaches upon pieces, queues these to be
     /// split, and the triangle again.
     fn insert_circumcentre(&mut self, ticket: Ticket) -> Result<Result<(), Left>, MeshError> {
         let places = ticket.corners.map(|vertex| self.triangulation.point(vertex));
@@ -94,9 +94,9 @@ impl Refiner<'_> {
         Ok(refused)
     }
 
-    /// Inserts a point although it encroaches upon pieces that will not be split at an acute vertex: the triangles that it
-    /// spoils touch that vertex, and no others. If the usual point is too near to such a piece, or behind it, one at most as
-    /// far from the shortest edge as that is long.
+    /// Inserts a point although it encroaches upon pieces at an acute vertex that will not be split: all triangles that
+    /// it spoils touch that vertex. If the usual point is too near to such a piece, or behind it, the point is instead
+    /// one that is at most as far from the shortest edge as that is long.
     fn insert_beside(
         &mut self,
         ticket: Ticket,

@@ -1,44 +1,52 @@
-//! Delaunay refinement: points where triangles are bad, until none is.
+//! Delaunay refinement: adds points where triangles are bad, until none is.
 //!
 //! # Idea
-//! Start from the constrained Delaunay triangulation of the input. A triangle that is skinny or too large is broken by a
-//! point at its circumcentre, far from all vertices since the circle holds none. A point that would come too near to a piece
-//! of the boundary is not inserted: the piece is split instead. No two vertices ever come much nearer than the input or the
-//! spacing asks for, so this ends, and what is left has no small angle.
+//! Start from the constrained Delaunay triangulation of the input. A triangle that is skinny or too large is broken by
+//! a point at its circumcentre. This point is far from all vertices, since the circumcircle holds none. A point that
+//! would come too near to a piece of the boundary is not inserted: the piece is split instead. No two vertices ever
+//! come much nearer to each other than the input or the spacing asks for, so this ends, and the triangles that are left
+//! have no small angle.
 //!
 //! # Steps
-//! 1. [`Refinable::new`] triangulates the input vertices, its segments as pieces;
+//! 1. [`Refinable::new`] triangulates the input vertices, with the segments as pieces;
 //! 2. [`refiner::Refiner::split_encroached`] splits the pieces that a vertex encroaches upon;
-//! 3. [`refiner::Refiner::insert_circumcentres`] takes bad triangles, shortest edge first ([`queue`]), and inserts the
-//!    circumcentre or off-centre of each ([`triangles::NewPoint`]), or splits the pieces it encroaches upon, step 2 again;
+//! 3. [`refiner::Refiner::insert_circumcentres`] takes bad triangles, shortest edge first ([`queue`]). It inserts the
+//!    circumcentre or off-centre of each ([`triangles::NewPoint`]) or, if that encroaches upon pieces, splits these
+//!    instead, as in step 2;
 //! 4. [`Refinable::into_mesh`] carves outside and holes away. The triangulation is constrained Delaunay all along.
 //!
 //! # Guarantee
-//! Every triangle has the angle and the size asked for, except those counted: `left_at_acute_vertex` (the angle is the
-//! input's, or to mend it would shorten the pieces at an acute vertex below [`pieces::SHELL_FLOOR`], and so on for ever),
-//! `left_by_rounding` (coordinates do not resolve the point), `left_by_floor` (edges would become shorter than
-//! [`pieces::FLOOR`] of what input and sizes ask for). The floors end the work on every domain and at every angle. In theory
-//! it ends without them up to 20.7° for circumcentres, diametral circles and input angles of at least 60°, and up to 25.7°
-//! (28.6° without good grading) for lenses; in practice up to about 33°. Of the certificate: `constrained-delaunay`. The
-//! paper's bounds are measured only.
+//! Of the certificate: `constrained-delaunay`. The paper's bounds are only measured.
+//!
+//! Every triangle has the angle and the size asked for, except those that are counted:
+//! * `left_at_acute_vertex`: the angle is the input's, or mending it would shorten the pieces at an acute vertex below
+//!   [`pieces::SHELL_FLOOR`], and so on for ever;
+//! * `left_by_rounding`: coordinates do not resolve the point;
+//! * `left_by_floor`: edges would become shorter than [`pieces::FLOOR`] of what input and sizes ask for.
+//!
+//! The floors end the work on every domain and at every angle. Without them, refinement is proved to end up to 20.7° for
+//! circumcentres, diametral circles and input angles of at least 60°, and up to 25.7° (28.6° without good grading) for
+//! lenses. In practice it ends up to about 33°.
 //!
 //! # Cost
-//! O(1) per point in practice: a short walk, the cavity, and about six triangles tested. s at their corners mostly decides
-//! whether they are too large, so s is evaluated little more than once per point. Buckets keep the queue free of logarithms.
+//! O(1) per point in practice: a short walk, the cavity, and about six triangles tested. In most cases s at the corners
+//! of a triangle decides whether it is too large, so s is evaluated little more than once per point. The queue has
+//! buckets, so it costs no logarithm.
 //!
-//! # Deviations from the papers (and why)
-//! * Sizes: too large means by default an area over √3/4 s² at the centroid, as Triangle's users ask for ([`SizeRule`]).
-//! * Order: shortest edge first, as in Triangle 1.6, where Ruppert leaves it open; short edges breed shorter ones only where
-//!   longer ones have not been spoilt yet.
+//! # Deviations from the paper (and why)
+//! * Sizes: by default, too large means an area above √3/4 s², with s at the centroid, as users of Triangle ask for
+//!   ([`SizeRule`]).
+//! * Order: shortest edge first, as in Triangle 1.6; Ruppert leaves the order open. Short edges then breed shorter ones
+//!   only where longer ones have not been spoilt yet.
 //! * Lenses have Triangle's angle: a vertex encroaches if it sees a piece under more than 180° less twice the bound, which
 //!   is Chew's lens at 30°. As Chew does, splitting then removes the free vertices in the diametral circle that see the piece.
-//! * Small input angles: pieces at a vertex of an acute angle are split at a distance from it that is a power of two, so that
-//!   two of them end at one distance and do not encroach upon each other (Ruppert's shells, as Shewchuk has them). Miller, Pav
-//!   and Walkington leave every skinny triangle whose shortest edge joins two segments at one distance from their common
-//!   vertex; that ends, but leaves small angles well away from the vertex. Here such triangles are mended, and what ends the
-//!   work is the floor of the pieces at the vertex: once they are that short, a point may encroach upon them, since all
-//!   triangles it spoils touch the vertex (`insert_beside`). Between segments a few degrees apart some
-//!   triangles near the vertex still keep small angles.
+//! * Small input angles: pieces at a vertex of an acute angle are split at a distance from it that is a power of two,
+//!   so that two of them end at one distance and do not encroach upon each other (Ruppert's shells, as Shewchuk has
+//!   them). Miller, Pav and Walkington leave every skinny triangle whose shortest edge joins two segments at one
+//!   distance from their common vertex; that ends, but leaves small angles well away from the vertex. Here such
+//!   triangles are mended, and the floor of the pieces at the vertex ends the work: once they are that short, a point
+//!   may encroach upon them, since all triangles that it spoils touch the vertex (`insert_beside`). Between segments a
+//!   few degrees apart, some triangles near the vertex still keep small angles.
 //!
 //! # Reference
 //! J. Ruppert, "A Delaunay Refinement Algorithm for Quality 2-Dimensional Mesh Generation", 1995. L. P. Chew,
@@ -72,7 +80,7 @@ use serde::{Deserialize, Serialize};
 pub enum Insertion {
     /// At its circumcentre (Ruppert, Chew).
     Circumcentre,
-    /// At its off-centre if that is nearer (Üngör): fewer points.
+    /// At its off-centre, if that is nearer (Üngör): fewer points.
     #[default]
     OffCentre,
 }
@@ -97,7 +105,7 @@ pub enum SizeRule {
     /// Area over √3/4 s², s at the centroid: the equilateral triangle's.
     #[default]
     Area,
-    /// Longest edge over s, s at its middle. Pieces longer than s are split whatever is beside them.
+    /// Longest edge over s, s at its middle. Pieces longer than s are split, whatever is beside them.
     Edge,
     /// Circumradius over s / √3, s at the centroid: the equilateral triangle's.
     Radius,
@@ -105,14 +113,14 @@ pub enum SizeRule {
     None,
 }
 
-/// The largest angle that may be asked for, degrees: in practice refinement ends up to here.
+/// The largest angle that may be asked for, degrees: in practice refinement ends up to this angle.
 pub const LARGEST_ANGLE: f64 = 34.0;
 
 /// Delaunay refinement and its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DelaunayRefinement {
-    /// Smallest angle asked for, degrees, at least 0 and at most [`LARGEST_ANGLE`]. The default is where Chew's second
+    /// Smallest angle asked for, degrees, at least 0 and at most [`LARGEST_ANGLE`]. Up to the default, Chew's second
     /// algorithm is proved to end for sizes well below the features.
     pub angle: f64,
     /// Where a bad triangle is broken.

@@ -8,12 +8,12 @@ use crate::geometry::DVec2;
 use crate::meshers::MeshError;
 use std::f64::consts::FRAC_PI_3;
 
-/// For an angle's sake no vertex comes nearer to another than this share of what input and sizes ask for there. The
-/// theories need shares of about 1/30 where they prove anything.
+/// To improve an angle, no vertex comes nearer to another than this share of what input and sizes ask for there. The
+/// proofs that refinement ends need shares of about 1/30.
 pub(super) const FLOOR: f64 = 1.0 / 1024.0;
 
-/// For an angle's sake no piece at an acute vertex becomes shorter than this share of what the features and sizes around it
-/// ask for: the nearest feature that could require it to be shorter is that far away.
+/// To improve an angle, no piece at an acute vertex becomes shorter than this share of what the features and sizes
+/// around it ask for: the nearest feature that could require a shorter piece is that far away.
 pub(super) const SHELL_FLOOR: f64 = 1.0 / 4.0;
 
 /// Why a triangle or a piece is left as it is.
@@ -60,7 +60,7 @@ pub(super) fn in_diametral_circle(ends: [DVec2; 2], x: DVec2) -> bool {
 
 /// Acute input angles and the concentric shells around them.
 pub(super) struct Shells {
-    /// For each segment, the shortest piece that may be made for an angle's sake at its first and last vertex; none where
+    /// For each segment, the shortest piece that may be made at its first and last vertex to improve an angle; none if
     /// that vertex has no acute angle beside the segment.
     shortest: Vec<[Option<f64>; 2]>,
     length: Vec<f64>,
@@ -75,7 +75,7 @@ pub(super) struct Split {
     pub share: f64,
     /// Length of the shorter part, or of the one at an acute vertex.
     pub part: f64,
-    /// The shortest that part may be for an angle's sake; none away from acute vertices.
+    /// The shortest that this part may be to improve an angle; none away from acute vertices.
     pub shortest: Option<f64>,
 }
 
@@ -108,8 +108,8 @@ impl Shells {
         self.is_acute.get(vertex as usize).copied().unwrap_or(false)
     }
 
-    /// Where to split a piece: in the middle; at an acute vertex at a distance that is a power of two, between one and two
-    /// thirds of the piece.
+    /// Where to split a piece: in the middle or, at an acute vertex, at a distance from it that is a power of two,
+    /// between one and two thirds of the piece.
     pub fn split(&self, triangulation: &Refinable, piece: u32) -> Split {
         let segment = triangulation.piece(piece).segment as usize;
         let [from, to] = triangulation.shares(piece);
@@ -139,7 +139,7 @@ impl Shells {
 }
 
 impl Split {
-    /// Whether the split may be made: for a size's sake always, for an angle's down to the floors.
+    /// Whether the split may be made: for a size always, for an angle down to the floors.
     pub fn check(&self, flaw: Flaw, floor: f64) -> Result<(), Left> {
         match (flaw, self.shortest) {
             (Flaw::Size, _) => Ok(()),

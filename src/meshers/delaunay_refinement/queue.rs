@@ -1,4 +1,4 @@
-//! Bad triangles, shortest edge first, in buckets as in the classical codes: constant time per triangle.
+//! Bad triangles, shortest edge first, in buckets as in the classical programs: constant time per triangle.
 
 use super::triangles::Flaw;
 use std::collections::VecDeque;
@@ -11,7 +11,8 @@ pub(super) struct Ticket {
     pub flaw: Flaw,
 }
 
-/// Buckets: the exponent and the first bit behind the point of a squared length, so two to a factor of √2 in length.
+/// Buckets are numbered by the exponent and the first bit of the mantissa of a squared length, so there are two per
+/// factor of √2 in length.
 const BUCKETS: usize = 1 << 12;
 
 /// Tickets by shortest edge; first come, first served within a bucket.

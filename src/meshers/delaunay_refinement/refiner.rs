@@ -1,4 +1,4 @@
-//! The state of a refinement: what is measured of vertices, pieces and triangles; encroached pieces split.
+//! The state of a refinement: what is known of vertices, pieces and triangles; how encroached pieces are split.
 
 use super::DelaunayRefinement;
 use super::pieces::{FLOOR, Left, Nearness, Shells, in_diametral_circle};
@@ -32,12 +32,12 @@ pub(super) struct Refiner<'a> {
     pub(super) resolution: f64,
     pub(super) encroached: VecDeque<Encroached>,
     pub(super) queue: Queue,
-    /// Whether bad triangles are queued yet; not before the input's own encroachments are over.
+    /// Whether bad triangles are queued yet: not before all pieces that the input encroaches upon are split.
     pub(super) tests_triangles: bool,
     pub(super) cavity: Cavity,
     /// s at each vertex.
     pub(super) sizes: Vec<f64>,
-    /// At each vertex, how near another one may come for an angle's sake; it grows no faster than [`FLOOR`] with distance.
+    /// At each vertex, how near another one may come to improve an angle; it grows with slope [`FLOOR`] at most.
     pub(super) floors: Vec<f64>,
     /// Pieces that cannot be split because of rounding.
     pub(super) unsplittable: Vec<(u32, [u32; 2])>,
@@ -55,7 +55,7 @@ fn sharpness(domain: &Domain, vertex: usize) -> f64 {
 }
 
 impl<'a> Refiner<'a> {
-    /// Measures the input: how small edges may become, what encroaches.
+    /// Measures how small edges may become, and queues the pieces upon which the input encroaches.
     pub fn new(
         parameters: &DelaunayRefinement,
         triangulation: Refinable,
@@ -110,7 +110,7 @@ impl<'a> Refiner<'a> {
         room
     }
 
-    /// The ends of the edge opposite to the vertex that a half-edge starts at.
+    /// The ends of the edge opposite to the vertex at which a half-edge starts.
     fn opposite(&self, edge: u32) -> [DVec2; 2] {
         let [_, next] = self.triangulation.ends(edge);
         [next, self.triangulation.apex(edge)].map(|vertex| self.triangulation.point(vertex))
@@ -156,7 +156,7 @@ impl<'a> Refiner<'a> {
             corners,
             flaw,
         };
-        // Of the edges ab, bc, ca the other two meet where the smallest angle is.
+        // Of the edges ab, bc, ca, the two other than the shortest meet at the smallest angle.
         let beside = [1, 2].map(|k| 3 * triangle + (shape.shortest as u32 + k) % 3);
         if flaw == Flaw::Angle && beside.iter().all(|&edge| self.triangulation.piece_on(edge).is_some()) {
             self.left.push((ticket, Left::AtAcuteVertex));
@@ -166,7 +166,7 @@ impl<'a> Refiner<'a> {
         Ok(())
     }
 
-    /// Splits pieces until none is encroached upon except those that may not be split.
+    /// Splits pieces until none is encroached upon, except those that may not be split.
     pub fn split_encroached(&mut self) -> Result<(), MeshError> {
         while let Some(Encroached { piece, ends, flaw }) = self.encroached.pop_front() {
             if self.piece_ends(piece).0 == ends && self.may_split(piece, flaw).is_ok() {
@@ -245,7 +245,7 @@ impl<'a> Refiner<'a> {
         })
     }
 
-    /// Notes size and floor at the vertex made last.
+    /// Notes size and floor of the vertex made last.
     pub(super) fn add_vertex(&mut self, x: DVec2, floor: f64) -> Result<(), MeshError> {
         let size = self.bounds.size_at_vertex(x)?;
         self.sizes.push(size);

@@ -1,4 +1,5 @@
-//! What the certificate does not see: encroachment, angles, sizes, what is left and why, and that it ends.
+//! What the certificate does not check: encroachment, angles, sizes, what is left bad and why, and that refinement
+//! ends.
 
 use super::pieces::{Nearness, in_diametral_circle};
 use super::*;
@@ -35,7 +36,7 @@ fn uncapped(domain: &Domain, spec: &str) -> Arc<dyn Spacing> {
     build(spec, domain, &options).expect("a spacing").function
 }
 
-/// Angles only, by the given variant.
+/// A mesher for angles only, of the given variant.
 fn angles_only(angle: f64, insertion: Insertion, encroachment: Encroachment) -> DelaunayRefinement {
     DelaunayRefinement {
         angle,
@@ -62,11 +63,11 @@ fn variants(angle: f64) -> impl Iterator<Item = DelaunayRefinement> {
 struct Run {
     mesh: Mesh,
     statistics: Statistics,
-    /// Triangles that the mesher says it left bad.
+    /// Triangles that the mesher reports as left bad.
     left: f64,
 }
 
-/// Meshes, and holds the structural checks of the certificate.
+/// Meshes, and asserts the structural checks of the certificate.
 fn run(mesher: &DelaunayRefinement, domain: &Domain, spacing: &dyn Spacing) -> Run {
     let mut trace = Trace::default();
     let mesh = mesher.mesh(domain, spacing, &request(), &mut trace);
@@ -89,13 +90,14 @@ fn smallest_angle(corners: [DVec2; 3]) -> f64 {
     angles_deg(corners).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Triangles with a smaller angle than asked for, by a loop.
+/// The number of triangles with a smaller angle than asked for, by a loop.
 fn skinny(mesh: &Mesh, angle: f64) -> usize {
     let is_skinny = |&t: &usize| smallest_angle(mesh.corners(t)) < angle - 1e-9;
     (0..mesh.triangles.len()).filter(is_skinny).count()
 }
 
-/// Pairs of a piece and a vertex that encroaches upon it and sees its middle through the domain, by a loop over all.
+/// The number of pairs of a piece and a vertex that encroaches upon it and sees its middle through the domain, by a
+/// loop over all.
 fn encroached(domain: &Domain, mesh: &Mesh, is_near: impl Fn([DVec2; 2], DVec2) -> bool) -> usize {
     let place = |vertex: u32| mesh.points[vertex as usize];
     let ends = |k: usize| [place(mesh.pieces[k].a), place(mesh.pieces[k].b)];
@@ -204,12 +206,16 @@ fn an_angle_out_of_range_is_refused() {
     for bad in ["-1", "35", "1e9"] {
         let parameters =
             crate::meshers::Parameters::from_iter([("angle".into(), crate::meshers::parameter_value(bad))]);
-        let told = (ENTRY.make)(&parameters).err().expect("refused");
-        assert!(told.contains("angle") && told.contains("from 0 to 34"), "{told}");
+        let refused = (ENTRY.make)(&parameters).err().expect("refused");
+        assert!(
+            refused.contains("angle") && refused.contains("from 0 to 34"),
+            "{refused}"
+        );
     }
 }
 
-/// A square with segments from its centre in the given directions, degrees: inner angles as small as one likes.
+/// A square with segments from its centre in the given directions, in degrees, so that inner angles can be arbitrarily
+/// small.
 fn fan(directions: &[f64], length: f64) -> Domain {
     let mut pslg = Pslg::new("fan");
     pslg.add_ring(
@@ -273,7 +279,7 @@ fn shells_know_the_features_round_their_vertex() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// Spikes of any sharpness: ends, valid, and every triangle left bad is counted.
+    /// Spikes of any sharpness: refinement ends with a valid mesh, and counts every triangle that it leaves bad.
     #[test]
     fn random_spikes_end_with_every_bad_triangle_counted(
         radii in prop::collection::vec(0.05f64..1.0, 5..25),

@@ -1,4 +1,4 @@
-//! Which triangles are bad, and where the point goes that is to break one.
+//! Which triangles are bad, and where to put the point that breaks one.
 
 use super::{DelaunayRefinement, Insertion, SizeRule};
 use crate::geometry::{DVec2, predicates};
@@ -8,20 +8,21 @@ use crate::meshers::sizing::Sizing;
 /// Area of the equilateral triangle with edge 1.
 const EQUILATERAL: f64 = 0.433_012_701_892_219_3;
 
-/// Height of an off-centre over the shortest edge, in edges, times the tangent of half the angle. At 0.5 the triangle over
-/// the edge would have just the angle asked for; a little less, so that rounding does not make it bad. Triangle's value.
+/// Height of an off-centre over the shortest edge, in edges, times the tangent of half the angle. At 0.5 the triangle
+/// over the edge would have exactly the angle asked for; it is a little less, so that rounding does not make the
+/// triangle bad. The value is Triangle's.
 const OFF_CENTRE: f64 = 0.475;
 
 /// What is wrong with a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Flaw {
-    /// Larger than the size rule lets it be.
+    /// It is larger than the size rule allows.
     Size,
     /// Its smallest angle, opposite to its shortest edge, is below the bound.
     Angle,
 }
 
-/// A triangle measured: its shortest edge, which lies opposite to its smallest angle, and its longest.
+/// The measures of a triangle: its shortest edge, which lies opposite to its smallest angle, and its longest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
     /// Which of the edges ab, bc, ca is the shortest; the first of equal ones.
@@ -76,7 +77,7 @@ impl<'a> Bounds<'a> {
         }
     }
 
-    /// s at a vertex, kept to bound s near it; infinite if sizes do not matter.
+    /// s at a vertex, which is kept to bound s near it; infinite if sizes do not matter.
     pub fn size_at_vertex(&self, x: DVec2) -> Result<f64, MeshError> {
         match self.rule {
             SizeRule::None => Ok(f64::INFINITY),
@@ -84,7 +85,7 @@ impl<'a> Bounds<'a> {
         }
     }
 
-    /// Whether the size rule asks for a piece to be split whatever is beside it.
+    /// Whether the size rule asks for a piece to be split, whatever is beside it.
     pub fn is_too_long(&self, ends: [DVec2; 2]) -> Result<bool, MeshError> {
         match self.rule {
             SizeRule::Edge => Ok(ends[0].distance(ends[1]) > self.sizing.at(ends[0].midpoint(ends[1]))?),
@@ -140,14 +141,14 @@ impl<'a> Bounds<'a> {
     }
 }
 
-/// Where the point goes that is to break a bad triangle.
+/// Where to put the point that breaks a bad triangle.
 pub(super) struct NewPoint {
     /// Height of the off-centre over the shortest edge, in edges; none for circumcentres.
     height: Option<f64>,
 }
 
 impl NewPoint {
-    /// At most as far from the shortest edge as that is long; still as far from all vertices.
+    /// A point at most as far from the shortest edge as that is long: still that far from all vertices.
     pub const BESIDE: Self = Self { height: Some(1.0) };
 
     pub fn new(parameters: &DelaunayRefinement) -> Self {

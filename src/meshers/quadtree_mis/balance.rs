@@ -1,12 +1,13 @@
-//! Step 1: a balanced quadtree whose leaves are about as large as the spacing asks for edges there.
+//! Step 1: a balanced quadtree whose leaves are about as large as the edges that the spacing asks for there.
 //!
 //! # Idea
-//! A cell is split until its side is at most `side` · s all over it, by the proved Lipschitz constant t of s = c_b f: with
-//! s known at one point of the cell and of Ω, s is at least s − t · (distance to the farthest corner) in the cell. Cells
-//! that do not meet Ω are dropped. Then every cell whose neighbour across a side has been split twice is split too.
+//! A cell is split until its side is at most `side` · s everywhere in it. This follows from the proved Lipschitz
+//! constant t of s = c_b f: if s is known at one point of the cell and of Ω, it is smaller in the cell by at most t ·
+//! (distance to the farthest corner). Cells that do not meet Ω are dropped. Then every cell whose neighbour across a
+//! side has been split twice is split too.
 //!
 //! # Cost
-//! s is evaluated once per leaf, and not at all in cells that a bound from above is enough to split.
+//! s is evaluated about once per leaf, and not at all in cells that an upper bound of s is enough to split.
 
 use super::Field;
 use crate::geometry::{DVec2, Rect};
@@ -21,11 +22,11 @@ pub(super) struct Leaf {
     pub half: f64,
     /// s at the leaf's anchor.
     pub radius: f64,
-    /// Index of the anchor in [`Quadtree::anchors`] where segments run through the leaf; else [`INSIDE`].
+    /// Index of the anchor in [`Quadtree::anchors`] if segments run through the leaf; else [`INSIDE`].
     anchor: u32,
 }
 
-/// Marks a leaf that no segment meets: inside as a whole, its anchor is its centre.
+/// Marks a leaf that no segment meets: all of it is inside, and its anchor is its centre.
 const INSIDE: u32 = u32::MAX;
 
 impl Leaf {
@@ -48,9 +49,9 @@ impl Leaf {
 pub(super) enum Node {
     /// It does not meet the domain.
     Outside,
-    /// Its leaf.
+    /// It is the leaf with this number.
     Leaf(u32),
-    /// Its four quarters, from this node on: lower left, lower right, upper left, upper right.
+    /// Its quarters are the four nodes from this number on: lower left, lower right, upper left, upper right.
     Inner(u32),
 }
 
@@ -67,7 +68,8 @@ pub(super) struct Quadtree {
     depths: [u32; 2],
 }
 
-/// One leaf in this number counts as a vertex to come: a vertex' circle of radius s meets fewer leaves of side over s/2.
+/// This number of leaves counts as one vertex to come: a vertex's circle of radius s meets fewer leaves with sides
+/// above s/2.
 const LEAVES_A_VERTEX: usize = 64;
 
 /// Clock and memory are checked once in this number of leaves.
@@ -104,7 +106,7 @@ struct Builder<'a, 'b> {
 }
 
 impl Builder<'_, '_> {
-    /// Makes `node` the tree of `cell`, on which `bounds` bound s.
+    /// Makes `node` the tree of `cell`, in which s is within `bounds`.
     fn grow(&mut self, node: usize, cell: Cell, depth: u32, bounds: [f64; 2]) -> Result<(), MeshError> {
         let width = cell.rect.size().x;
         let [mut low, mut high] = bounds;
@@ -122,7 +124,7 @@ impl Builder<'_, '_> {
         })
     }
 
-    /// Makes `node` an inner node and `with` of each of its quarters that meets the domain.
+    /// Makes `node` an inner node, and calls `with` for each of its quarters that meets the domain.
     fn split(
         &mut self,
         node: usize,
@@ -168,8 +170,8 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Splits leaves until neighbours across a side differ by at most one level: until every inner node has, beyond
-    /// each of its sides, a node of its own level, if anything.
+    /// Splits leaves until neighbours across a side differ by at most one level: until beyond each side of every inner
+    /// node there is a node of its own level, or nothing.
     fn even_out(&mut self) -> Result<(), MeshError> {
         if self.tree.depths[1] < self.tree.depths[0] + 2 {
             return Ok(());
@@ -186,7 +188,7 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Splits a leaf into leaves. The last of them takes its number.
+    /// Splits a leaf into leaves. The last of them gets its number.
     fn halve(&mut self, node: usize, place: Place) -> Result<(), MeshError> {
         let Node::Leaf(number) = self.tree.nodes[node] else {
             return Ok(());

@@ -1,15 +1,16 @@
 //! Step 2: the candidates, each the centre of a circle: points on the input segments, and samples in the leaves.
 //!
 //! # On segments
-//! A segment has a length in units of s, Λ = ∫ dx / s; divided evenly in that measure into ⌊Λ⌋ parts, its division points
-//! are at least s apart. Each part is divided again, by the oversampling factor: all these points are candidates, and
-//! those of the even division come first in the order of insertion, so that pieces of a segment come out equally long
-//! unless something else is in the way.
+//! The length of a segment in units of s is Λ = ∫ dx / s. If it is divided evenly in that measure into ⌊Λ⌋ parts, the
+//! division points are about s apart; if some are nearer than s, fewer parts are made. Each part is divided again, by
+//! the oversampling factor. All these points are candidates. Those of the even division come first in the order of
+//! insertion, so that the pieces of a segment are equally long unless something else is in the way.
 //!
 //! # In leaves
-//! The factor is the number of points per side, each in the middle of its square ([`Sampling::Regular`]) or anywhere in
-//! it ([`Sampling::Jittered`]). They are made when a leaf is worked on, and not at all if one circle covers the leaf:
-//! a mesh of 10⁶ triangles has about 10⁷ candidates, most of which are never examined.
+//! The oversampling factor is the number of points per side of a leaf, each in the middle of its square
+//! ([`Sampling::Regular`]) or anywhere in it ([`Sampling::Jittered`]). They are made when a leaf is processed, and not
+//! at all if one circle covers the leaf: a mesh of 10⁶ triangles has about 10⁷ candidates, most of which are never
+//! examined.
 
 use super::balance::Leaf;
 use super::{Field, QuadtreeMis};
@@ -35,8 +36,8 @@ pub enum Sampling {
 /// Step of the sum that measures a segment, over s.
 const MEASURING_STEP: f64 = 0.25;
 
-/// How much shorter a division becomes each time its points turn out less than s apart: the error of the sum that measured
-/// the segment, which is below t² / 100 of it.
+/// The factor by which the number of parts falls each time that the points turn out to be less than s apart. The reason
+/// is the error of the sum that measured the segment, which is below t² / 100 of it.
 const SHORTER: f64 = 0.99;
 
 /// A candidate on a segment.
@@ -81,7 +82,7 @@ struct Ruler<'a> {
     segment: usize,
     start: DVec2,
     direction: DVec2,
-    /// Positions along the segment with ∫ dx / s up to there.
+    /// Positions along the segment, each with ∫ dx / s up to there.
     marks: Vec<(f64, f64)>,
 }
 
@@ -133,8 +134,8 @@ impl<'a> Ruler<'a> {
         })
     }
 
-    /// The inner points of the division into as many equal parts, in units of s, as keep points s apart: neighbours by
-    /// the smaller of their two s, the first and last from the ends by the s there.
+    /// The inner points of the division into as many equal parts, in units of s, as keep points s apart. For neighbours
+    /// the smaller of their two s counts; for the first and the last point, the s at the ends.
     fn even_division(&self) -> Result<Vec<OnSegment>, MeshError> {
         let last = self.marks.len() - 1;
         let ends = [0, last].map(|mark| self.marks[mark].0);
@@ -167,7 +168,7 @@ impl<'a> Ruler<'a> {
 pub(super) struct Row {
     /// Number of the leaf in its tile.
     pub leaf: usize,
-    /// Which row, from below.
+    /// The number of the row, from below.
     pub number: u32,
     /// Middle of the row's part of the leaf.
     pub centre: DVec2,
@@ -175,7 +176,7 @@ pub(super) struct Row {
     pub half: DVec2,
 }
 
-/// A row of the samples of a leaf; its number counts from below.
+/// A row of the samples of a leaf; rows are counted from below.
 pub(super) fn row(mesher: &QuadtreeMis, leaf: usize, place: &Leaf, number: u32) -> Row {
     let half = DVec2::new(place.half, place.half / f64::from(mesher.oversample));
     let bottom = place.centre.y - place.half;

@@ -1,16 +1,16 @@
-//! Goes on sampling where gaps remain until none is left.
+//! Goes on sampling where gaps remain, until none is left.
 //!
 //! # Idea
-//! A cell that one circle covers, or that does not meet the domain, is done. Of any other, the centre is chosen if no
-//! circle covers it; if that does not cover the cell, its quarters are treated alike, [`HALVINGS`] times. Most of the cells
-//! that are left then are covered by several circles together. An uncovered region among them is bounded by arcs, since all
-//! segments are covered; its outer boundary has corners where two circles cross, because one circle alone can only bound
-//! it from within. So it is enough to examine the crossings of circles in the cells that are left: if none is uncovered
-//! there is no gap, and if one is it is chosen.
+//! A cell that one circle covers, or that does not meet the domain, is done. Of any other cell, the centre is chosen if
+//! no circle covers it; the quarters of the cell are then treated likewise, [`HALVINGS`] times. Most of the cells that
+//! are left then are covered by several circles together. An uncovered region among them is bounded by arcs, since all
+//! segments are covered. Its outer boundary has corners where two circles cross, because one circle alone can only
+//! bound it from within. So it is enough to examine the crossings of circles in the cells that are left. If every
+//! crossing is covered, there is no gap; an uncovered crossing is chosen.
 //!
 //! # Termination
-//! No point is chosen within a circle chosen before, so their packing circles are disjoint, and the domain has room for
-//! finitely many.
+//! No point is chosen within a circle chosen before, so the packing circles are disjoint, and the domain has room for
+//! finitely many of them.
 
 use super::Field;
 use super::balance::Quadtree;
@@ -23,7 +23,8 @@ use crate::meshers::MeshError;
 /// How often a leaf is halved before crossings of circles are examined: samples are then 1/32 of a leaf apart.
 const HALVINGS: u32 = 5;
 
-/// Cells are examined with this share of their half side around them, so that a crossing on a side is in one.
+/// Cells are extended on all sides by this share of their half side, so that a crossing on a common side is in one of
+/// them.
 const SLACK: f64 = 1e-6;
 
 /// A part of a leaf that may not be covered.
@@ -34,7 +35,7 @@ struct Speck {
     half: f64,
 }
 
-/// Covers the domain.
+/// Chooses circles until the domain is covered.
 pub(super) fn complete(field: &Field, tree: &Quadtree, tiles: &mut Tiles) -> Result<(), MeshError> {
     let specks = tiles.sweep(|_, tile, circles, elsewhere| refine(field, tree, tile, circles, elsewhere))?;
     let mut before = usize::MAX;
@@ -106,7 +107,7 @@ fn meets_domain(field: &Field, picker: &Picker, cell: &Speck) -> bool {
     is_met
 }
 
-/// Chooses the uncovered crossings of circles in the cells, one after the other, until there is none in any.
+/// Chooses the uncovered crossings of circles in the cells, one after the other, until no cell has any.
 fn settle(
     field: &Field,
     tree: &Quadtree,
@@ -130,7 +131,8 @@ fn settle(
     Ok(())
 }
 
-/// Chooses the first crossing in the cell of two of the circles that no other covers; returns whether there was one.
+/// Chooses the first crossing of two of the circles in the cell that no other circle covers. Returns whether there was
+/// one.
 fn pick_crossing(picker: &mut Picker, circles: &[Near], speck: &Speck) -> Result<bool, MeshError> {
     for (index, one) in circles.iter().enumerate() {
         for other in &circles[index + 1..] {

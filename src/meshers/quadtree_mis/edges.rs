@@ -1,8 +1,10 @@
-//! Step 3, first half: the independent set on the input vertices and along the segments, and what makes it cover them.
+//! Step 3, first half: the independent set on the input vertices and along the segments, and how its gaps along these
+//! are closed.
 //!
-//! All input vertices belong to the mesh. On the segments a candidate is chosen unless a circle chosen before covers it.
-//! Between candidates gaps can be left that no circle covers, shorter than their distance; these are closed, at their
-//! middles: an interior point in such a gap would stand next to a long piece of the boundary and make a flat triangle.
+//! All input vertices belong to the mesh. On the segments a candidate is chosen unless a circle chosen before covers
+//! it. Gaps that no circle covers can be left between candidates, shorter than their distance. They are closed, with a
+//! circle at the middle if one is enough: an interior point in such a gap would lie close to a long piece of the
+//! boundary and form a flat triangle.
 
 use super::Field;
 use super::circles::OnSegment;
@@ -60,7 +62,7 @@ impl<'a, 'b> Boundary<'a, 'b> {
         &self.near
     }
 
-    /// A maximal independent set of the candidates, which come in the order of insertion.
+    /// Chooses a maximal independent set of the candidates, which are given in the order of insertion.
     pub fn edges(&mut self, mut candidates: Vec<OnSegment>) -> Result<(), MeshError> {
         match self.field.mesher.order {
             Order::Insertion => {}
@@ -87,8 +89,7 @@ impl<'a, 'b> Boundary<'a, 'b> {
         Ok(())
     }
 
-    /// Puts a circle into the middle of every gap that the circles leave along a segment, until there is none. Returns
-    /// how many.
+    /// Closes every gap that the circles leave along a segment. Returns how many circles this took.
     pub fn close_gaps(&mut self) -> Result<usize, MeshError> {
         let known = self.circles.len();
         for segment in 0..self.field.domain.segments().len() {
@@ -118,9 +119,9 @@ impl<'a, 'b> Boundary<'a, 'b> {
         })
     }
 
-    /// The first stretch of a ray, between two distances from its start, that no circle covers; it may go on beyond what
-    /// the circle at its beginning would cover. Circles count as a little smaller than they are, so where two of them
-    /// touch there is a gap of that much.
+    /// The first stretch of a ray, between two distances from its start, that no circle covers. It may extend beyond
+    /// what the circle at its beginning would cover. Circles count as a little smaller than they are, so two that touch
+    /// leave a gap of that size.
     fn gap(&mut self, start: DVec2, direction: DVec2, [low, high]: [f64; 2]) -> Result<Option<(f64, f64)>, MeshError> {
         let mut from = low;
         while from <= high {
@@ -145,7 +146,7 @@ impl<'a, 'b> Boundary<'a, 'b> {
         Ok(None)
     }
 
-    /// The chains of mesh edges along all segments; leaves none of the cuts.
+    /// Takes the cuts, and returns the chains of mesh edges along all segments.
     pub fn pieces(&mut self) -> Vec<Piece> {
         Piece::chains(self.field.domain, std::mem::take(&mut self.cuts))
     }
@@ -159,7 +160,7 @@ fn chord(centre: DVec2, radius: f64, direction: DVec2) -> Option<(f64, f64)> {
     (half_squared > 0.0).then(|| (along - half_squared.sqrt(), along + half_squared.sqrt()))
 }
 
-/// How many candidates have each candidate in their circle.
+/// For each candidate, the number of candidates whose circles cover it.
 fn degrees(candidates: &[OnSegment], t: f64) -> Vec<u32> {
     let mut circles = DiscGrid::new(t);
     candidates.iter().for_each(|candidate| {

@@ -16,13 +16,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Order {
-    /// Along a segment its even division first, then from end to end; in a tile row by row from below. In even spacing a
-    /// row settles into the hollows of the row before, which makes the packing denser than any other order does.
+    /// Along a segment, its even division first, then from end to end; in a tile, row by row from below. Where spacing
+    /// is even, a row settles into the hollows of the row before, which makes the packing denser than any other order
+    /// does.
     #[default]
     Insertion,
-    /// First those that the fewest other candidates would cover.
+    /// First the candidates that the fewest other candidates would cover.
     Degree,
-    /// Where the spacing is smallest first.
+    /// First the candidates where the spacing is smallest.
     Spacing,
     /// In random order, by seed.
     Random,
@@ -40,12 +41,12 @@ pub struct Packing {
     pub centres: Vec<DVec2>,
     /// Chains of centres along the input segments.
     pub pieces: Vec<Piece>,
-    /// Counts made on the way, by name.
+    /// Counts of the run, by name.
     counts: [(&'static str, usize); 6],
 }
 
 impl Packing {
-    /// Notes the counts.
+    /// Notes the counts in the trace.
     pub(super) fn note(&self, trace: &mut Trace) {
         for (name, count) in self.counts {
             trace.count(name, count as f64);
@@ -53,7 +54,7 @@ impl Packing {
     }
 }
 
-/// Chooses circles, one after the other, that cover no centre chosen before.
+/// Chooses circles, one after the other, whose centres no circle chosen before covers.
 pub(super) fn independent_set(
     field: &Field,
     tree: &Quadtree,

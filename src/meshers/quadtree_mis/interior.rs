@@ -1,9 +1,9 @@
 //! Step 3 in the leaves: the independent set among their samples, tile by tile.
 //!
 //! Two candidates are in conflict if the circle of the one chosen first covers the other. The set is built greedily, in
-//! an [`Order`] within each tile, so it is independent and maximal: what is not chosen is covered by a circle chosen
-//! before. A sample is tested against the few circles that reach into its leaf, which are found once per row of the leaf,
-//! and s is evaluated only for samples that are chosen.
+//! an [`Order`] within each tile. So it is independent and maximal: a candidate that is not chosen is covered by a
+//! circle chosen before it. A sample is tested against the few circles that reach into its leaf, which are found once
+//! per row of the leaf, and s is evaluated only for samples that are chosen.
 
 use super::balance::{Leaf, Quadtree};
 use super::circles::{Row, row, samples};
@@ -22,12 +22,12 @@ pub(super) struct Picker<'a, 'b> {
     pub field: &'b Field<'a>,
     tree: &'b Quadtree,
     circles: &'b mut DiscGrid,
-    /// How many vertices there are besides those in `circles`.
+    /// The number of vertices besides those in `circles`.
     elsewhere: usize,
     pub leaf: Leaf,
-    /// A point of the leaf, which offsets are seen from.
+    /// A point of the leaf, from which offsets are measured.
     pub anchor: DVec2,
-    /// The circles that reach into the leaf, seen from its anchor.
+    /// The circles that reach into the leaf, relative to its anchor.
     pub near: Vec<Near>,
 }
 
@@ -53,7 +53,7 @@ impl<'a, 'b> Picker<'a, 'b> {
             .around(self.anchor, self.leaf.radius, reach, &mut self.near);
     }
 
-    /// Whether one circle covers the box of that centre and half width and height.
+    /// Whether one circle covers the box with that centre and half width and height.
     pub fn is_box_covered(&self, centre: DVec2, half: DVec2) -> bool {
         let centre = centre - self.anchor;
         self.near.iter().any(|near| {
@@ -67,8 +67,8 @@ impl<'a, 'b> Picker<'a, 'b> {
         self.is_box_covered(self.leaf.centre, DVec2::splat(self.leaf.half))
     }
 
-    /// Whether a point of the leaf, seen from its anchor, lies in the domain and no circle covers it; the circles of two
-    /// ids do not count.
+    /// Whether a point of the leaf, relative to its anchor, lies in the domain and no circle covers it. The circles
+    /// with the two ids `but` do not count.
     fn is_free(&self, x: DVec2, but: [u32; 2]) -> bool {
         let covers = |near: &Near| {
             let shrunk = near.radius * (1.0 - tolerance::COVERED);
@@ -88,12 +88,12 @@ impl<'a, 'b> Picker<'a, 'b> {
         }));
     }
 
-    /// Chooses the point of the leaf if it lies in the domain and no circle covers it; returns whether it did.
+    /// Chooses the point of the leaf if it lies in the domain and no circle covers it. Returns whether it was chosen.
     pub fn pick(&mut self, x: DVec2) -> Result<bool, MeshError> {
         self.pick_at(x - self.anchor, [NO_CIRCLE; 2])
     }
 
-    /// [`Self::pick`] of a point seen from the leaf's anchor, where two circles do not count.
+    /// [`Self::pick`] of a point relative to the leaf's anchor; two circles do not count.
     pub fn pick_at(&mut self, offset: DVec2, but: [u32; 2]) -> Result<bool, MeshError> {
         if !self.is_free(offset, but) {
             return Ok(false);
@@ -118,7 +118,7 @@ impl<'a, 'b> Picker<'a, 'b> {
 /// No circle has this id.
 const NO_CIRCLE: u32 = u32::MAX;
 
-/// A maximal independent set of the samples of a tile, given the circles that reach into it, to which it is added.
+/// Chooses a maximal independent set of the samples of a tile, and adds it to the circles that reach into the tile.
 /// Returns how many samples were examined.
 pub(super) fn interior(
     field: &Field,
@@ -181,7 +181,7 @@ fn from_below<'a>(mesher: &QuadtreeMis, mut leaves: Vec<usize>, place: impl Fn(u
             .then(y.1.total_cmp(&other_y.1))
             .then(x.total_cmp(&other_x))
     });
-    // Leaves of one size that stand side by side have their rows in order already, which the sort makes use of.
+    // The rows of leaves of one size that lie side by side are in order already, which makes the sort fast.
     let mut rows = Vec::with_capacity(leaves.len() * mesher.oversample as usize);
     for band in leaves.chunk_by(|&one, &other| band(one) == band(other)) {
         for number in 0..mesher.oversample {
@@ -204,15 +204,15 @@ struct Sample {
     /// The number of its leaf in the tile.
     leaf: usize,
     x: DVec2,
-    /// Whether it counts when degrees are counted.
+    /// Whether degrees count it.
     counts: bool,
 }
 
-/// Most samples per side of a leaf that count when degrees are counted: enough to distinguish a crowded place from a free one,
-/// with work that does not grow with the fourth power of the oversampling.
+/// Most samples per side of a leaf that degrees count: enough to distinguish a crowded place from a free one, with work
+/// that does not grow with the fourth power of the oversampling.
 const COUNTED: u32 = 4;
 
-/// The samples of the tile at hand.
+/// A walk over the samples of a tile.
 struct Walk<'a, 'b, 'c> {
     picker: Picker<'a, 'b>,
     leaves: &'c [u32],
@@ -230,8 +230,8 @@ impl Walk<'_, '_, '_> {
         !self.is_done[leaf]
     }
 
-    /// Row by row. A row is skipped without a search for the circles around its leaf if one of those found last covers it, which
-    /// is so for most rows.
+    /// Examines samples row by row. A row is skipped, without a search for the circles around its leaf, if one circle
+    /// of the last search covers it. This is so for most rows.
     fn row_by_row(&mut self, rows: &[Row], random: &mut Pcg64) -> Result<usize, MeshError> {
         let (picker, mut looked_at) = (&mut self.picker, 0);
         let mut next_row = vec![0; self.leaves.len()];
@@ -291,7 +291,7 @@ impl Walk<'_, '_, '_> {
     }
 }
 
-/// In how many samples' circles each sample lies, of those that count.
+/// For each sample, the number of samples whose circles cover it, of those that count.
 fn degrees(field: &Field, samples: &[Sample]) -> Result<Vec<u32>, MeshError> {
     let mut circles = DiscGrid::new(field.sizing.t());
     for sample in samples.iter().filter(|sample| sample.counts) {

@@ -1,47 +1,50 @@
-//! Quadtree and maximal independent set (§4): a circle packing out of an oversample of circles.
+//! Quadtree and maximal independent set (§4): a circle packing chosen from an oversample of circles.
 //!
 //! # Idea
-//! Refine a quadtree until its leaves are about as large as the edges wanted there. Put more points than needed into every
-//! leaf, each the centre of a circle of radius s = c_b f that no other vertex may lie in. Of these overlapping circles
-//! keep a maximal set in which none covers the centre of another. The centres are well spaced by construction, and if
-//! the samples were dense they leave no gap; so their Delaunay triangulation is well shaped (Theorem 4.1).
+//! Refine a quadtree until its leaves are about as large as the edges wanted there. Put more points than needed into
+//! every leaf, each the centre of a circle of radius s = c_b f. Of these overlapping circles choose a maximal set, one
+//! after the other, in which no circle covers the centre of one chosen later. The centres are well spaced by
+//! construction. If the samples were dense, the circles leave no gap, and the Delaunay triangulation of the centres is
+//! well shaped (Theorem 4.1).
 //!
 //! # Steps
-//! 1. [`balance::balance`]: the quadtree, split until a leaf's side is at most [`QuadtreeMis::leaf_side`] · s, neighbours
-//!    within a factor of two of each other;
-//! 2. [`circles::circles`]: candidates on the segments; those in the leaves are made when they are examined;
-//! 3. [`independent_set::independent_set`]: on the input vertices, then the edges, then the interior; with
-//!    [`QuadtreeMis::complete`] it goes on sampling until no gap remains ([`complete::complete`]);
+//! 1. [`balance::balance`] makes the quadtree: each leaf's side is at most [`QuadtreeMis::leaf_side`] · s, and the
+//!    sides of neighbours differ by at most a factor of two;
+//! 2. [`circles::circles`]: makes the candidates on the segments; those in the leaves are made when they are examined;
+//! 3. [`independent_set::independent_set`] chooses circles on the input vertices, then the edges, then the interior;
+//!    with [`QuadtreeMis::complete`] it goes on sampling until no gap remains ([`complete::complete`]);
 //! 4. [`triangulate`] makes the constrained Delaunay triangulation of the centres.
 //!
 //! # Guarantee
-//! Always, each a check of the certificate, with t = α c_b < 1 and, for input vertices to be apart, f ≤ lfs and c_b ≤ 1:
+//! The triangulation is always constrained Delaunay (`constrained-delaunay`). With t = α c_b < 1 and, so that input
+//! vertices are far enough apart, f ≤ lfs and c_b ≤ 1, these checks of the certificate hold too:
 //! * no centre lies in a circle chosen before it, ‖x − y‖ ≥ c_b min(f(x), f(y)), so the packing circles of radius
 //!   c_b f / (2 + t) are disjoint (Lemma 5.4, `packing-disjoint`, and `vertices-upper`, which follows);
 //! * nn ≥ c_b (1 − t) f at vertices (first half of the proof of Lemma 5.7, `nn-vertex-lower`) and
 //!   nn ≥ c_b f / (2 + 2t) elsewhere (second half of Lemma 5.8, `nn-point-lower`): neither proof uses coverage.
 //!
-//! With `complete = true` the biting circles cover the domain (`coverage`), so the packing has the β of Theorem 5.5, and
-//! with it come `nn-vertex-upper`, `nn-point-upper` and `vertices-lower`. Without, the β reached is measured.
+//! With `complete = true` the circles of radius c_b f cover the domain (`coverage`). So the packing has the β of
+//! Theorem 5.5, and `nn-vertex-upper`, `nn-point-upper` and `vertices-lower` hold. With `complete = false` these are
+//! only measured, and so is the β reached.
 //!
 //! The angle bound of Theorem 6.8 is *not* guaranteed, even then. Lemma 6.1 (triangles seen from their circumcentres)
-//! needs only packing and coverage, but §6.2 needs how the biting method places circles along the boundary: an
-//! independent set may leave a piece nearly two radii long, above whose middle a vertex may stand arbitrarily low.
-//! The even division of segments makes that rare; it happens where input angles are acute.
+//! needs only packing and coverage, but §6.2 depends on how the biting method places circles along the boundary. An
+//! independent set may leave a piece nearly two radii long, with a vertex arbitrarily low above its middle. The even
+//! division of segments makes that rare; it happens where input angles are acute.
 //!
 //! # Cost
-//! O(o) near-queries and O(o²) samples per leaf for o = [`QuadtreeMis::oversample`]; f is evaluated once per leaf, once per vertex,
-//! and about 4 + o times per vertex on the boundary; O(n log n) for the triangulation. Tiles of leaves are worked on in rounds by
-//! [`Request::threads`] threads ([`tiles`]); the mesh does not depend on how many there are.
+//! O(o) near-queries and O(o²) samples per leaf for o = [`QuadtreeMis::oversample`]; f is evaluated once per leaf, once
+//! per vertex, and about 4 + o times per vertex on the boundary; O(n log n) for the triangulation. Tiles of leaves are
+//! processed in rounds by [`Request::threads`] threads ([`tiles`]); the mesh does not depend on the number of threads.
 //!
 //! # Deviations from the paper (and why)
-//! * §4 says circles of radius f / 2 that do not overlap. Here two candidates are in conflict if the circle of radius
-//!   c_b f of the one chosen first covers the other: the same for uniform f, and for graded f what Definition 4.1 and
-//!   Lemma 5.4 need.
-//! * Gaps along the segments are closed whether complete or not ([`edges`]): interior points in them would stand next to
-//!   the boundary. So all of a mesh's gaps are in the interior.
-//! * The order of choice is one within tiles of at most 4096 leaves, tile after tile, so that it can be parallel without a
-//!   conflict graph in memory. In the default order the samples are scanned row by row.
+//! * §4 chooses circles of radius f / 2 that do not overlap. Here two candidates are in conflict if the circle of
+//!   radius c_b f of the one chosen first covers the other. For uniform f this is the same; for graded f it is what
+//!   Definition 4.1 and Lemma 5.4 need.
+//! * Gaps along the segments are closed, whether `complete` or not ([`edges`]), since interior points in them would lie
+//!   too near to the boundary. So all gaps of a mesh are in the interior.
+//! * Candidates are ordered only within tiles of at most 4096 leaves, and tiles follow one another, so that the choice
+//!   can be parallel without a conflict graph in memory. In the default order the samples are scanned row by row.
 //! * Candidates are not stored: at 10⁶ triangles there would be about 10⁸ of them.
 //!
 //! # Reference
@@ -78,18 +81,20 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct QuadtreeMis {
-    /// Samples per side of a leaf and candidates per part of a segment's even division, 2 to 64. Default 8: each doubling
-    /// from 2 to 8 makes the packing about a tenth denser and the gaps less than half as wide at little cost, since most
-    /// rows of samples are covered before they are examined; 16 takes twice the time for a twentieth more.
+    /// Samples per side of a leaf, and candidates per part of a segment's even division, 2 to 64. Default 8: each
+    /// doubling from 2 to 8 makes the packing about a tenth denser and the gaps less than half as wide. It costs
+    /// little, since most rows of samples are covered before they are examined. 16 takes twice the time for a packing a
+    /// twentieth denser.
     pub oversample: u32,
     /// Where the samples are in their squares.
     pub sampling: Sampling,
     /// The order in which candidates are considered.
     pub order: Order,
-    /// Longest side of a leaf over s = c_b f in it, 1/64 to 1; sides are between half of that and that. Default 1: "until
-    /// the leaf is about f"; smaller leaves are the same as more samples, but cost a search for the circles around each.
+    /// Longest side of a leaf over s = c_b f in it, 1/64 to 1; sides are between half of that and that. Default 1:
+    /// "until the leaf is about f". Smaller leaves have the effect of more samples, but each costs a search for the
+    /// circles around it.
     pub leaf_side: f64,
-    /// Whether to go on sampling where gaps remain until none is left.
+    /// Whether to go on sampling where gaps remain, until none is left.
     pub complete: bool,
 }
 
@@ -125,7 +130,7 @@ pub(super) const ENTRY: Entry = Entry {
             name: "order",
             values: "insertion, degree, spacing, random",
             default: "insertion",
-            help: "which candidate is considered first (open in §4): row by row, fewest conflicts, smallest spacing, any",
+            help: "which candidate is considered first (open in §4): row by row, fewest conflicts, smallest spacing, by seed",
         },
         Parameter {
             name: "leaf_side",
@@ -137,13 +142,13 @@ pub(super) const ENTRY: Entry = Entry {
             name: "complete",
             values: "true, false",
             default: "false",
-            help: "go on sampling where gaps remain until none is left",
+            help: "whether to go on sampling where gaps remain, until none is left",
         },
     ],
     make: from_parameters::<QuadtreeMis>,
 };
 
-/// What the steps share.
+/// The data that all steps share.
 struct Field<'a> {
     mesher: &'a QuadtreeMis,
     domain: &'a Domain,
@@ -197,7 +202,7 @@ impl QuadtreeMis {
     }
 }
 
-/// Smallest side of a leaf over s: far below it only the work grows.
+/// Smallest side of a leaf over s: far below that, only the work grows.
 const LEAST_LEAF_SIDE: f64 = 1.0 / 64.0;
 
 impl Mesher for QuadtreeMis {

@@ -1,4 +1,4 @@
-//! What the certificate does not see: the quadtree, that the set is independent and maximal, the orders, refusals.
+//! What the certificate does not check: the quadtree, that the set is independent and maximal, the orders, refusals.
 
 use super::balance::{Leaf, Quadtree, balance};
 use super::circles::{circles, row, samples};
@@ -33,7 +33,7 @@ fn domain(name: &str) -> Domain {
     gallery::domain(name).expect("a gallery name").expect("a valid domain")
 }
 
-/// A spacing from its SPEC, not capped by lfs.
+/// The spacing of a SPEC, not capped by lfs.
 fn uncapped(domain: &Domain, spec: &str, alpha: f64) -> Arc<dyn Spacing> {
     let options = Options {
         lfs_cap: false,
@@ -42,7 +42,7 @@ fn uncapped(domain: &Domain, spec: &str, alpha: f64) -> Arc<dyn Spacing> {
     build(spec, domain, &options).expect("a spacing").function
 }
 
-/// Small near (0.3, 0.4), growing outward.
+/// A spacing that is small near (0.3, 0.4) and grows outward.
 fn growing(domain: &Domain, low: f64, slope: f64) -> Arc<dyn Spacing> {
     uncapped(
         domain,
@@ -143,7 +143,8 @@ proptest! {
         }
     }
 
-    /// By a quadratic loop: no centre lies in a circle chosen before it, and every candidate lies in some circle.
+    /// Checked by a quadratic loop: no centre lies in a circle chosen before it, and every candidate lies in some
+    /// circle.
     #[test]
     fn the_set_is_independent_and_maximal(
         mesher in any_mesher(), name in any_domain(), low in 0.03..0.1f64, slope in 0.0..0.94f64,
@@ -178,7 +179,7 @@ proptest! {
         }
     }
 
-    /// Any parameters on any spacing: what is guaranteed holds.
+    /// What is guaranteed holds for any parameters and any spacing.
     #[test]
     fn guarantees_hold_for_any_parameters(
         mesher in any_mesher(), name in any_domain(), low in 0.02..0.3f64, slope in 0.0..0.9f64,

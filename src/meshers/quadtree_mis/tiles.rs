@@ -1,13 +1,14 @@
-//! Tiles of leaves that can be worked on at the same time: the rounds of the independent set.
+//! Tiles of leaves that can be processed at the same time: the rounds of the independent set.
 //!
 //! # Idea
-//! A tile is a cell of the quadtree with all its leaves. Choosing circles in one tile cannot disturb another that is farther
-//! away than any circle of either reaches. So tiles are coloured such that those of one colour are that far apart, and all
-//! tiles of a colour make a round. Rounds follow one another; the tiles of a round are shared among threads, and since
-//! none sees what the others choose, the result does not depend on how they are shared.
+//! A tile is a cell of the quadtree with all its leaves. Choosing circles in one tile cannot disturb another that is
+//! farther away than any circle of either reaches. So tiles are coloured so that those of one colour are that far
+//! apart, and all tiles of a colour make a round. Rounds follow one another. The tiles of a round are shared among
+//! threads; since none sees what the others choose, the result does not depend on how they are shared.
 //!
 //! # Cost
-//! Each tile copies the circles of its neighbours that reach into it: a share of its own that falls with its size.
+//! Each tile copies the circles of its neighbours that reach into it. Relative to its own circles, these become fewer
+//! with its size.
 
 use super::Field;
 use super::balance::{Node, Quadtree};
@@ -17,8 +18,8 @@ use crate::meshers::MeshError;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-/// Most leaves of a tile that has more than one: few enough that 10⁵ triangles make many tiles, enough that copying the
-/// neighbours' circles costs little.
+/// Most leaves of a tile that has more than one: few enough that 10⁵ triangles make many tiles, and enough that copying
+/// the neighbours' circles costs little.
 const MOST_LEAVES: usize = 4096;
 
 /// A cell of the quadtree with its leaves.
@@ -52,7 +53,7 @@ pub(super) struct Tiles {
 }
 
 impl Tiles {
-    /// Cuts the quadtree into tiles and files the circles on the input boundary under those they reach into.
+    /// Cuts the quadtree into tiles, and files the circles on the input boundary under the tiles into which they reach.
     pub fn new(tree: &Quadtree, field: &Field, boundary: &DiscGrid) -> Self {
         let (t, threads) = (field.sizing.t(), field.threads);
         let mut cutter = Cutter {
@@ -78,7 +79,7 @@ impl Tiles {
             tiles,
             t,
             boundary: boundary.len(),
-            // Without a pool one thread does it all.
+            // Without a pool, one thread does all the work.
             pool: rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)
                 .build()
@@ -88,8 +89,8 @@ impl Tiles {
         }
     }
 
-    /// Does `work` on every tile, round by round. It is given the tile and all circles that reach into it, and adds to
-    /// these what it chooses, and how many there are that do not; what else it found comes back tile by tile.
+    /// Does `work` on every tile, round by round. `work` gets the tile, all circles that reach into it, and the number
+    /// of circles that do not; to the circles it adds those that it chooses. What it returns is returned tile by tile.
     pub fn sweep<T: Send>(
         &mut self,
         work: impl Fn(usize, &Tile, &mut DiscGrid, usize) -> Result<T, MeshError> + Sync,
@@ -150,8 +151,8 @@ struct Cutter<'a> {
 }
 
 impl Cutter<'_> {
-    /// Notes the leaves below `node` as waiting, and returns true, if they are few enough for one tile; else makes tiles of its
-    /// quarters.
+    /// If the leaves below `node` are few enough for one tile, notes them as waiting and returns true; else makes tiles
+    /// of its quarters.
     fn group(&mut self, node: u32, cell: Rect) -> bool {
         let first = match self.tree.nodes[node as usize] {
             Node::Outside => return true,
@@ -241,7 +242,7 @@ fn gap(one: Rect, other: Rect) -> f64 {
         .length()
 }
 
-/// Tiles by colour: each takes the first colour that no neighbour before it has.
+/// Tiles by colour: each tile gets the first colour that no neighbour before it has.
 fn rounds(tiles: &[Tile]) -> Vec<Vec<usize>> {
     let mut colours: Vec<usize> = Vec::with_capacity(tiles.len());
     let mut rounds: Vec<Vec<usize>> = Vec::new();

@@ -3,8 +3,8 @@
 use super::super::front::{NONE, OPEN};
 use super::*;
 
-/// The front bounds exactly what is not meshed: its edges turn with it on their left, link up, and stand against sides of
-/// triangles; sides of triangles are front, or piece, or shared by two; areas sum to the domain's.
+/// The front bounds exactly what is not meshed. Its edges have that on their left, are linked in loops, and lie against
+/// sides of triangles; each side of a triangle is on the front, a piece, or shared by two; areas sum to the domain's.
 fn assert_front_bounds_the_rest(front: &Front) {
     let mut rest = 0.0;
     let mut length = 0;
@@ -56,7 +56,7 @@ fn assert_front_bounds_the_rest(front: &Front) {
     );
 }
 
-/// Closes what is left by force and holds the mesh to its structure.
+/// Closes what is left by force, and checks the structure of the mesh.
 fn assert_closes_to_a_mesh(mut front: Front, pieces: Vec<Piece>) -> Mesh {
     front.close_by_force().expect("closed");
     assert_eq!(front.length, 0);

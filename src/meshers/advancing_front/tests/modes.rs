@@ -27,7 +27,7 @@ fn rows_close_small_openings_at_once() {
 #[test]
 fn a_row_is_made_whole_before_the_next() {
     advanced(&ROWS, &domain("unit-square"), "uniform:0.1", 0, |mut front, _| {
-        // Among faces that are no clefts, those of a row come after all of the rows before it.
+        // Among faces that are not clefts, those of a row come after all those of the rows before it.
         let mut latest = 0;
         while let Some(face) = front.pick_face() {
             if front.edge(face.base.edge).attempts == 0 && !face.is_cleft() {

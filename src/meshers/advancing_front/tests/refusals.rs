@@ -25,7 +25,7 @@ fn parameters_out_of_range_are_refused() {
     }
 }
 
-/// A spacing that breaks its promise in the middle of the square.
+/// A spacing that is not positive and finite in the middle of the square.
 struct Broken(f64);
 
 impl Spacing for Broken {
@@ -43,17 +43,17 @@ impl Spacing for Broken {
 }
 
 #[test]
-fn a_spacing_that_breaks_its_promise_is_told_with_the_place() {
+fn a_spacing_that_is_not_positive_is_reported_with_the_place() {
     for value in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-        let told = AdvancingFront::DEFAULT.mesh(
+        let refused = AdvancingFront::DEFAULT.mesh(
             &domain("unit-square"),
             &Broken(value),
             &request(1.0),
             &mut Trace::default(),
         );
         assert!(
-            matches!(told, Err(MeshError::Spacing { x, y, .. }) if (x - 0.5).hypot(y - 0.5) <= 0.25),
-            "{value}: {told:?}"
+            matches!(refused, Err(MeshError::Spacing { x, y, .. }) if (x - 0.5).hypot(y - 0.5) <= 0.25),
+            "{value}: {refused:?}"
         );
     }
 }
