@@ -120,7 +120,7 @@ pub struct Range {
     pub max: f64,
 }
 
-/// The numbers of `design.md` that need the mesh (and, where told, the spacing). Angles in degrees.
+/// The numbers of a report that need the mesh and, for some of them, the spacing. Angles in degrees.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Mesh vertices.

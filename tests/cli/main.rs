@@ -115,7 +115,7 @@ fn list_names_what_there_is() {
     }
 }
 
-/// The fields that design.md promises of every report.
+/// The fields that every report must have, since scripts use them.
 const FIELDS: &str = "domain mesher params spacing t t_effective c_b alpha seed vertices triangles integral size_ratio \
     size_efficiency min_angle_deg min_angle_free_deg min_angle_bound_deg max_angle_deg mean_min_angle_deg \
     p05_min_angle_deg max_radius_edge edge_over_size nn_over_f seconds peak_rss_bytes certificate provenance";

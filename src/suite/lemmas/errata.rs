@@ -12,7 +12,7 @@ use crate::suite::report::markdown::{number, table};
 pub fn page(lines: &[Line]) -> Result<String, String> {
     let mut text = String::from(
         "# Errata of \"Biting: Advancing Front Meets Sphere Packing\"\n\n\
-         Made by `cargo run --release -- lemmas`; nothing here is typed. Each entry stands by itself: what is printed, what is true, a proof or a counterexample, and what \
+         Made by `cargo run --release -- lemmas`: numbers and configurations are computed, proofs are written in `src/suite/lemmas`. Each entry stands by itself: what is printed in the version at hand (the journal's may differ), what is true, a proof or a counterexample, and what \
          becomes of the statements that rest on it. The judgement of all statements, also of those that are right, is in [results/lemmas](../results/lemmas/README.md).\n\n\
          **In short.** Theorem 6.8, the angle bound asin(1/2 − t), survives for t ≤ 1/3 with four hypotheses that the paper does not state: f ≤ lfs in the whole domain and c_b ≤ 1; c_b + t ≤ 1; \
          a middle circle where circles touch; a constrained triangulation. One step stays open: a circumcentre that sees a vertex only across a piece of an inner segment that had to be forced. Formula (10) is wrong, Lemma 6.6 with it for t > 0.398, and Lemma 2.1 is false; the constants of Lemmas 5.7 (left) and \

@@ -40,7 +40,7 @@ pub struct Provenance {
     pub date: String,
 }
 
-/// All about one mesh. Field names are fixed by `design.md`; lengths are in the domain's unit.
+/// Everything about one mesh. Field names are fixed, since scripts use them; lengths are in the domain's unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Gallery name or file stem.
