@@ -12,12 +12,12 @@
 mod reach;
 mod refinable;
 
-pub use reach::{Feature, Part, Reach};
-pub use refinable::{Around, Cavity, Location, Refinable, following};
+pub(crate) use reach::{Part, Reach};
+pub(crate) use refinable::{Cavity, Location, Refinable, following};
 
 mod cavities;
 
-pub use cavities::triangulate_cavities;
+pub(crate) use cavities::triangulate_cavities;
 
 use crate::domain::{Domain, Face};
 use crate::geometry::{DVec2, predicates};

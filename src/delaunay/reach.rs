@@ -250,11 +250,6 @@ impl Reach {
         f64::INFINITY
     }
 
-    /// Whether the closed disc around `x` through `y` reaches `y`.
-    pub fn joins(&self, x: DVec2, y: DVec2) -> bool {
-        self.radius_to(x, y) <= x.distance(y) * (1.0 + f64::EPSILON)
-    }
-
     /// How far side `k` of triangle `t` is from `x`.
     fn away(&self, t: u32, k: usize, x: DVec2) -> f64 {
         let corners = self.triangles[t as usize];

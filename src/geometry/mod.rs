@@ -2,13 +2,13 @@
 //!
 //! Every sign in the project comes from [`predicates`]; every tolerance from [`tolerance`].
 
-pub mod boxes;
-pub mod interval;
-pub mod near;
+pub(crate) mod boxes;
+pub(crate) mod interval;
+pub(crate) mod near;
 pub mod predicates;
-pub mod segment_grid;
-pub mod segments;
-pub mod tolerance;
+pub(crate) mod segment_grid;
+pub(crate) mod segments;
+pub(crate) mod tolerance;
 
 pub use glam::DVec2;
 

@@ -81,11 +81,6 @@ impl DiscGrid {
         self.discs.len()
     }
 
-    /// Whether there is no disc.
-    pub fn is_empty(&self) -> bool {
-        self.discs.is_empty()
-    }
-
     /// Disc `id`.
     pub fn disc(&self, id: u32) -> Disc {
         self.discs[id as usize].0

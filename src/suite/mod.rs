@@ -1,26 +1,27 @@
-//! The experiment around the library.
+//! The experiment around the library. Public is what the binary and the fuzz targets need.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`peers`] | meshers of others, behind a process boundary |
-//! | [`fem`] | what quality is for: a Poisson problem on the mesh, its error, iterations and eigenvalues |
+//! | `peers` | meshers of others, behind a process boundary |
+//! | `fem` | what quality is for: a Poisson problem on the mesh, its error, iterations and eigenvalues |
 //! | [`rows`] | what an experiment leaves: a record for each mesh, the journal of a run, what made them |
 //! | [`run`] | from a plan (TOML) to rows |
-//! | [`analysis`] | what rows say together |
-//! | [`charts`], [`report`] | figures by plotters, pages from rows alone |
-//! | [`lemmas`] | every statement of the paper with a bound, judged numerically and on meshes; errata |
-//! | [`figures`], [`replay`] | the paper's figures from real runs, and a run to step through |
+//! | `analysis` | what rows say together |
+//! | `charts`, `report` | figures by plotters, pages from rows alone |
+//! | `lemmas` | every statement of the paper with a bound, judged numerically and on meshes; errata |
+//! | `figures`, `replay` | the paper's figures from real runs, and a run to step through |
 //! | [`cli`] | one file per verb |
 
-pub mod analysis;
-pub mod charts;
+mod analysis;
+mod charts;
 pub mod cli;
-pub mod fem;
-pub mod figures;
+mod fem;
+mod figures;
 mod files;
-pub mod lemmas;
-pub mod peers;
-pub mod replay;
-pub mod report;
+mod lemmas;
+mod peers;
+mod replay;
+mod report;
 pub mod rows;
 pub mod run;
+mod tolerance;

@@ -163,11 +163,6 @@ impl Refinable {
         Ok(triangulation)
     }
 
-    /// Vertices made so far, removed ones included.
-    pub fn vertex_count(&self) -> usize {
-        self.points.len()
-    }
-
     /// Pieces so far.
     pub fn piece_count(&self) -> usize {
         self.pieces.len()

@@ -49,7 +49,7 @@ mod testing;
 mod tests;
 mod tridiagonal;
 
-pub use problem::{Named, PROBLEMS, Problem};
+pub use problem::{PROBLEMS, Problem};
 
 /// Residual, relative to the right-hand side, both Euclidean, at which iterations are counted.
 pub const RESIDUAL: f64 = 1e-8;

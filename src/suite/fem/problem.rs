@@ -54,47 +54,45 @@ pub enum Problem {
 pub struct Named {
     /// Its name.
     pub name: &'static str,
-    /// What it is for.
-    pub about: &'static str,
     /// The problem for a domain with this box.
     pub make: fn(Rect) -> Problem,
 }
 
 /// All problems that have a name.
 pub const PROBLEMS: [Named; 5] = [
+    // One wave across the box: suits uniform meshes.
     Named {
         name: "smooth",
-        about: "one wave across the box: suits uniform meshes",
         make: |bounds| Problem::Smooth { bounds },
     },
+    // A front of width 0.04 along a circle around a point beside the lower left corner.
     Named {
         name: "layer",
-        about: "a front of width 0.04 along a circle around a point beside the lower left corner",
         make: |bounds| Problem::Layer {
             centre: bounds.min - 0.05 * longer(bounds),
             radius: 0.7 * longer(bounds),
             width: 0.02 * longer(bounds),
         },
     },
+    // A bump of radius 0.05 in the middle of the lower left quarter: suits meshes graded to it.
     Named {
         name: "peak",
-        about: "a bump of radius 0.05 in the middle of the lower left quarter: suits meshes graded to it",
         make: |bounds| Problem::Peak {
             centre: bounds.min + 0.25 * bounds.size(),
             width: 0.05 * longer(bounds),
         },
     },
+    // A layer of width 0.02 along the left side: suits meshes graded to that side.
     Named {
         name: "boundary-layer",
-        about: "a layer of width 0.02 along the left side: suits meshes graded to that side",
         make: |bounds| Problem::BoundaryLayer {
             wall: bounds.min.x,
             width: 0.02 * longer(bounds),
         },
     },
+    // The singularity at the reflex corner of l-shape, for that domain alone: suits meshes graded to the corner.
     Named {
         name: "corner",
-        about: "the singularity at the reflex corner of l-shape, for that domain alone: suits meshes graded to the corner",
         make: |bounds| Problem::Corner {
             at: bounds.centre(),
             bisector: -bounds.size(),

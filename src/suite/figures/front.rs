@@ -7,8 +7,9 @@
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::near::{Disc, Near, circle_intersections};
-use crate::geometry::tolerance::{COVERED, NOTHING};
+use crate::geometry::tolerance::COVERED;
 use crate::suite::charts::scene::Arc;
+use crate::suite::tolerance::NOTHING;
 use std::f64::consts::TAU;
 
 /// Whether `disc` covers `point`.

@@ -3,8 +3,8 @@
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::segments::closest_on_segment;
-use crate::geometry::tolerance::ON_CIRCLE as ON;
 use crate::meshers::{Bite, Reason};
+use crate::suite::tolerance::ON_CIRCLE as ON;
 
 /// The label of a bite of edge protection.
 #[derive(Clone, Debug, PartialEq)]

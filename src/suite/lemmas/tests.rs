@@ -13,6 +13,12 @@ fn on(statement: &Statement, bound: &Bound, range: (f64, f64)) -> Verdict {
     verdict(statement, bound, range, &optima(statement, &grid(statement, 4)))
 }
 
+/// The statement of this name.
+fn statement(name: &str) -> Statement {
+    let found = statements::all().into_iter().find(|statement| statement.name == name);
+    found.expect("a statement")
+}
+
 #[test]
 fn every_formula_is_judged_and_only_three_fail() {
     let mut failed = Vec::new();
@@ -44,7 +50,7 @@ fn a_planted_wrong_formula_is_caught() {
         ("lemma-6.3", |t| (1.0 - t) * ((3.0 + t) * (1.0 + t)).sqrt() / 2.0),
     ];
     for (name, at) in planted {
-        let statement = statements::find(name).expect("a statement");
+        let statement = statement(name);
         assert!(on(&statement, &statement.printed, statement.range).holds(), "{name}");
         let wrong = Bound { says: "planted", at };
         let verdict = on(&statement, &wrong, statement.range);
@@ -55,7 +61,7 @@ fn a_planted_wrong_formula_is_caught() {
 #[test]
 fn a_bound_a_little_beyond_the_optimum_fails_and_a_little_short_of_it_is_loose() {
     for name in ["lemma-5.4", "theorem-5.5", "lemma-6.2", "lemma-6.4"] {
-        let statement = statements::find(name).expect("a statement");
+        let statement = statement(name);
         let judged = optima(&statement, &[0.2]);
         let optimum = judged[0].optimum.found;
         let sign = match statement.sense {
@@ -78,7 +84,7 @@ fn a_bound_a_little_beyond_the_optimum_fails_and_a_little_short_of_it_is_loose()
 #[test]
 fn known_values_come_out() {
     let optimum = |name: &str, t: f64| {
-        let statement = statements::find(name).expect("a statement");
+        let statement = statement(name);
         optima(&statement, &[t])[0].optimum.found
     };
     let close = |value: f64, expected: f64| assert!((value - expected).abs() < 2e-4, "{value} {expected}");
@@ -92,7 +98,7 @@ fn known_values_come_out() {
 #[test]
 fn witnesses_are_what_they_are_said_to_be() {
     // (10) at t = 0: r is on both circles, and its height over |p₁q| is the value found.
-    let statement = statements::find("equation-10").expect("a statement");
+    let statement = statement("equation-10");
     for t in [0.0, 0.2, 0.4] {
         let optimum = &optima(&statement, &[t])[0].optimum;
         let points = (statement.points)(t, &optimum.at);
@@ -107,7 +113,7 @@ fn witnesses_are_what_they_are_said_to_be() {
 
 #[test]
 fn lemma_6_6_holds_up_to_0_3984() {
-    let statement = statements::find("lemma-6.6").expect("a statement");
+    let statement = statement("lemma-6.6");
     let largest = |t: f64| optima(&statement, &[t])[0].optimum.found;
     assert!(largest(0.398) < 0.625 && largest(0.399) > 0.625);
 }

@@ -18,7 +18,7 @@ mod record;
 #[cfg(test)]
 mod tests;
 
-pub use record::{About, Bites, Frame, Outline, Queue, Recording};
+use record::Recording;
 
 use crate::meshers::{Budget, MeshError, Request, Trace};
 use crate::suite::files::write_whole;

@@ -1,5 +1,6 @@
 use crate::geometry::DVec2;
 use crate::geometry::segments::closest_on_segment;
+use crate::suite::replay::record::Queue;
 use crate::suite::replay::*;
 use std::fs;
 

@@ -32,11 +32,6 @@ pub fn all() -> Vec<Statement> {
     parts.concat()
 }
 
-/// The statement of this name.
-pub fn find(name: &str) -> Option<Statement> {
-    all().into_iter().find(|statement| statement.name == name)
-}
-
 /// What a statement has where it says nothing else.
 const PLAIN: Statement = Statement {
     name: "",
