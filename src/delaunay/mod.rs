@@ -6,8 +6,8 @@
 //! arithmetic is in exact predicates, so a boundary point that rounding moved off its segment by an ulp leaves no hole
 //! and no sliver: the domain that is meshed is the one whose boundary is the pieces.
 //!
-//! [`Reach`] searches the triangulation of the domain alone for what discs reach inside it.
-//! [`Refinable`] starts from the same triangulation and takes points one at a time, for refinement.
+//! `Reach` searches the triangulation of the domain alone for what discs reach inside it.
+//! `Refinable` starts from the same triangulation and takes points one at a time, for refinement.
 
 mod reach;
 mod refinable;

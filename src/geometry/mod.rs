@@ -8,7 +8,7 @@ pub(crate) mod near;
 pub mod predicates;
 pub(crate) mod segment_grid;
 pub(crate) mod segments;
-pub(crate) mod tolerance;
+pub mod tolerance;
 
 pub use glam::DVec2;
 

@@ -44,7 +44,7 @@
 //!
 //! # Distances inside the domain
 //! If the spacing is Lipschitz in these ([`Spacing::is_geodesic`]), f ≤ lfs means [`crate::spacing::GeodesicLfs`], and
-//! circles and vertices count only for what they reach ([`crate::delaunay::Reach`], found from the domain alone):
+//! circles and vertices count only for what they reach (`delaunay::Reach`, found from the domain alone):
 //! `packing-disjoint` leaves out pairs of vertices of which the circle of the one with the larger spacing holds the other
 //! without reaching it; for `coverage` a point is in a circle that reaches it; nn is the smallest radius with which a disc
 //! reaches another vertex, or two. Besides what the table says, all bounds need t ≤ √2 − 1, the rule of the paper, and no

@@ -12,6 +12,9 @@
 //! | `figures`, `replay` | the paper's figures from real runs, and a run to step through |
 //! | [`cli`] | one file per verb |
 
+// Its docs are for those who work on it: `cargo doc --document-private-items`.
+#![allow(rustdoc::private_intra_doc_links)]
+
 mod analysis;
 mod charts;
 pub mod cli;

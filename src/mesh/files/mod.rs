@@ -122,7 +122,7 @@ pub fn write(mesh: &Mesh, path: &Path) -> Result<(), MeshFileError> {
     put(&encode(mesh, path)?)
 }
 
-/// What [`write`] writes: the files with their bytes, of which a `.node` has two.
+/// What [`write()`] writes: the files with their bytes, of which a `.node` has two.
 ///
 /// # Errors
 /// An unknown ending.
