@@ -1,4 +1,4 @@
-//! The smallest angle against Theorem 6.8, and angles at corners.
+//! Checks of the smallest angle (Theorem 6.8), and of angles at corners.
 
 use super::subject::{Sizes, Subject};
 use super::tally::{Tally, Worst};
@@ -8,7 +8,7 @@ use crate::geometry::tolerance::{CERTIFICATE, SAME_VERTEX_ULPS};
 use crate::theory::Claim;
 
 /// `min-angle` and `min-angle-beyond-corners`: in degrees, over the triangles that touch no vertex with an input angle
-/// under 60°. They differ in what they need.
+/// under 60°. They differ in their hypotheses.
 pub fn checks(subject: &Subject, sizes: &Sizes) -> [Check; 2] {
     let bound = sizes.promises().min_angle_deg();
     let tally = over_triangles(subject, |tally, t| {

@@ -1,6 +1,6 @@
 //! Finds the domain in a mesh by coordinates alone: input vertices among mesh vertices, segments as chains of edges.
 //!
-//! What a mesher says about its pieces is not used: a mesh may come from anywhere, with its vertices in any order.
+//! What a mesher reports about its pieces is not used: a mesh may come from anywhere, with its vertices in any order.
 
 use crate::domain::Domain;
 use crate::geometry::DVec2;
@@ -14,9 +14,10 @@ pub const NO_SEGMENT: u32 = u32::MAX;
 pub struct Boundary {
     /// The mesh vertex at each input vertex.
     pub vertex: Vec<Option<u32>>,
-    /// For each edge of the mesh, by its index in [`Adjacency::edges`], the segment it lies on, or [`NO_SEGMENT`].
+    /// For each edge of the mesh, by its index in [`Adjacency::edges`], the segment on which it lies, or
+    /// [`NO_SEGMENT`].
     pub segment: Vec<u32>,
-    /// Segments that are not chains of mesh edges, each with how far the chain got.
+    /// Segments that are not chains of mesh edges, each with the place where its chain ends.
     pub lost: Vec<(usize, DVec2)>,
 }
 
@@ -80,7 +81,7 @@ pub fn same_vertex_distance(domain: &Domain, mesh: &Mesh) -> f64 {
     SAME_VERTEX_ULPS * (largest.next_up() - largest)
 }
 
-/// The mesh vertex at each input vertex: at the same index, or else wherever it is.
+/// The mesh vertex at each input vertex: at the same index if all are, else found by coordinates.
 fn find_vertices(vertices: &[DVec2], points: &[DVec2], ulp: f64) -> Vec<Option<u32>> {
     let same = |v: DVec2, p: DVec2| (v - p).abs().max_element() <= ulp;
     if points.len() >= vertices.len() && vertices.iter().zip(points).all(|(v, p)| same(*v, *p)) {
@@ -93,7 +94,7 @@ fn find_vertices(vertices: &[DVec2], points: &[DVec2], ulp: f64) -> Vec<Option<u
     });
     let place = |k: &u32| points[*k as usize];
     let find = |v: &DVec2| {
-        // Almost always exactly these coordinates are there; only otherwise are all vertices of about that x compared.
+        // Almost always a vertex has exactly these coordinates. If not, all vertices of about that x are compared.
         let exact = order.partition_point(|k| place(k).x < v.x || (place(k).x == v.x && place(k).y < v.y));
         if let Some(k) = order.get(exact).filter(|k| place(k) == *v) {
             return Some(*k);

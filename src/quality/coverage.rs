@@ -1,7 +1,7 @@
 //! Packing circles are disjoint (Lemma 5.4) and biting circles cover the domain (Theorem 5.5), without sampling.
 //!
-//! A union of closed discs covers the domain if and only if no arc of one of their circles lies in the domain but in no other
-//! disc, as long as the boundary is covered. Only circles through triangles that are not plainly covered are examined: in a mesh
+//! If the boundary is covered, closed discs cover the domain if and only if no arc of one of their circles lies in the
+//! domain but in no other disc. Only circles through triangles that are not plainly covered are examined: in a mesh
 //! much finer than f, as around a very small angle, every circle would meet every other.
 
 use super::boundary::NO_SEGMENT;
@@ -37,7 +37,7 @@ pub fn packing_check(sizes: &Sizes) -> Check {
     sizes.check(Tally::all(Worst::Smallest, parts), Claim::PackingDisjoint, 1.0)
 }
 
-/// `coverage` of a mesh; `is_whole` if its triangles are known to make up the domain.
+/// `coverage` of a mesh; `is_whole` says that its triangles are known to make up the domain.
 pub fn coverage_check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
     match sizes.bounds.rule {
         Rule::Earlier => circles_check(subject, sizes, is_whole),
@@ -96,7 +96,7 @@ fn open_triangles(subject: &Subject, sizes: &Sizes) -> DiscTree {
     DiscTree::new(open.into_iter().flatten())
 }
 
-/// Whether each part of a triangle lies in one disc, parts being made by quartering.
+/// Whether a triangle can be quartered into parts each of which lies in one disc.
 fn is_covered(corners: [DVec2; 3], circles: &DiscTree, quarterings: usize) -> bool {
     let (centre, radius) = disc_around(corners);
     if circles.one_holds(centre, radius) {
@@ -162,7 +162,7 @@ fn gap_on(disc: &Disc, arcs: &mut Vec<(f64, f64)>, domain: &Domain, sizes: &Size
 /// Most broken pairs counted for one circle.
 const MOST_BROKEN: usize = 256;
 
-/// Notes distance over sum of packing radii, once for each pair, and returns whether they overlap.
+/// Notes the distance over the sum of the packing radii, once for each pair, and returns whether the circles overlap.
 fn see_pair(packing: &mut Tally, disc: &Disc, other: &Disc, c_p: f64, sizes: &Sizes) -> bool {
     let [f, g] = [disc.id, other.id].map(|k| sizes.at_vertex[k as usize]);
     let radii = c_p * (f + g);
@@ -206,9 +206,9 @@ fn covered_arc(disc: &Disc, other: &Disc) -> Arc {
 fn largest_gap(disc: &Disc, arcs: &mut [(f64, f64)], domain: &Domain) -> f64 {
     let in_domain = |angle: f64| domain.contains(disc.centre + disc.radius * DVec2::from_angle(angle));
     arcs.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
-    // A part that reaches over the end of the turn covers its beginning.
+    // A part that extends beyond the end of the turn covers its beginning.
     let Some(mut reach) = arcs.iter().map(|arc| arc.1 - TAU).reduce(f64::max) else {
-        // A circle that meets no disc cannot cross the boundary either where that is covered.
+        // If the boundary is covered, a circle that meets no disc cannot cross it either.
         return if in_domain(0.0) { TAU } else { 0.0 };
     };
     let mut largest = 0.0;
@@ -221,7 +221,8 @@ fn largest_gap(disc: &Disc, arcs: &mut [(f64, f64)], domain: &Domain) -> f64 {
     largest
 }
 
-/// Input segments are covered along their length: the longest uncovered stretch of each piece, over the piece's length.
+/// Whether input segments are covered along their length: the longest uncovered stretch of each piece, over the piece's
+/// length.
 fn along_segments(subject: &Subject, sizes: &Sizes) -> Tally {
     let points = &subject.mesh.points;
     let edges = subject.adjacency.edges().iter().zip(&subject.boundary.segment);
@@ -242,8 +243,8 @@ fn along_segments(subject: &Subject, sizes: &Sizes) -> Tally {
     Tally::all(Worst::Largest, parts)
 }
 
-/// The longest uncovered stretch of a segment (of equal ones the first), over the segment's length, and its middle. A disc covers
-/// a point only if it counts there.
+/// The longest uncovered stretch of a segment (the first of equal ones), over the segment's length, and its middle. A
+/// disc covers a point only if it counts there.
 fn uncovered_stretch([a, b]: [DVec2; 2], circles: &DiscTree, counts: impl Fn(u32, DVec2) -> bool) -> (f64, DVec2) {
     let (middle, direction) = (a.midpoint(b), b - a);
     let length = direction.length();

@@ -1,13 +1,14 @@
 //! Near-queries among discs of any radii: a static tree of bounding boxes.
 //!
-//! The judge has its own index, apart from the grid that biting uses: this one assumes nothing about how radii vary.
+//! The certificate has its own index, apart from the grid that biting uses: this one assumes nothing about how radii
+//! vary.
 
 use crate::geometry::{DVec2, Rect};
 use std::ops::ControlFlow;
 
 /// Discs per leaf.
 const LEAF: usize = 8;
-/// Deepest tree: halves down to a leaf, so 2^48 discs would fit.
+/// Most levels of the tree: discs are halved down to a leaf, so 2^48 discs would fit.
 const DEPTH: usize = 48;
 
 /// A disc and its index in the input.
@@ -55,7 +56,7 @@ impl DiscTree {
         tree
     }
 
-    /// All discs; those near each other are mostly next to each other.
+    /// All discs; most that are near each other are next to each other.
     pub fn discs(&self) -> &[Disc] {
         &self.discs
     }
@@ -156,7 +157,7 @@ impl DiscTree {
         is_held
     }
 
-    /// Passes discs to `look`, those in boxes of small `lower` bounds first, and leaves out boxes whose lower bound is not
+    /// Passes discs to `look`, those in boxes with small `lower` bounds first. Skips boxes whose lower bound is not
     /// below the limit that `look` returned last.
     fn nearest_first(&self, lower: impl Fn(&Node) -> f64, mut look: impl FnMut(&Disc) -> f64) {
         let mut limit = f64::INFINITY;
@@ -244,7 +245,7 @@ mod tests {
 
     #[test]
     fn discs_that_touch_meet_and_hold() {
-        // Two leaves and more, the disc in question among others far away.
+        // More than one leaf: the disc in question, and others far away.
         let far = (0..20).map(|k| (DVec2::new(100.0 + f64::from(k), 50.0), 1.0));
         let tree = DiscTree::new(std::iter::once((DVec2::new(3.0, 4.0), 2.0)).chain(far));
         let meets = |radius: f64| {
@@ -257,7 +258,7 @@ mod tests {
         };
         assert_eq!((meets(3.0), meets(2.9375)), (vec![0], vec![]));
         assert!(tree.one_holds(DVec2::new(3.0, 5.0), 1.0) && !tree.one_holds(DVec2::new(3.0, 5.0), 1.0625));
-        // A disc at the place counts as the nearest, one at the same place as the second.
+        // A centre at `x` itself is the nearest; another one there is the second nearest.
         assert_eq!(tree.second_nearest(DVec2::new(100.0, 50.0)), 1.0);
         let twins = DiscTree::new([(DVec2::X, 1.0), (DVec2::X, 2.0), (DVec2::Y, 0.0)].into_iter());
         assert_eq!(twins.second_nearest(DVec2::X), 0.0);

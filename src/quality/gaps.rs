@@ -1,16 +1,17 @@
 //! How large the gaps between packing circles are: the β of Definition 4.1.
 //!
-//! With packing circles B(p, c_p f(p)) around the mesh vertices p, c_p = c_b / (2 + t), a point q has the gap
-//! `gap(q) = min over p of (‖q − p‖ / c_p − f(p)) / f(q)`, and the circles are a β-packing if and only if they are
-//! disjoint (the check `packing-disjoint`) and β is at least the largest gap over the domain. Theorem 5.5 says that biting reaches
-//! β = (1 + t) / (1 − t).
+//! With packing circles B(p, c_p f(p)) around the mesh vertices p, c_p = c_b / (2 + t), a point q has the gap `gap(q) =
+//! min over p of (‖q − p‖ / c_p − f(p)) / f(q)`, and the circles are a β-packing if and only if they are disjoint (the
+//! check `packing-disjoint`) and β is at least the largest gap over the domain. By Theorem 5.5 biting reaches β = (1 +
+//! t) / (1 − t).
 //!
 //! # How it is found
-//! For constant f the gap is largest at circumcentres, or on the boundary in the middle between two vertices. For graded f
-//! the maxima move away from there, by a share of a circle. So the gap is measured at all circumcentres inside the
-//! domain and in the middle of all pieces of segments, and from the largest of these points climbed with shrinking
-//! steps. All these points lie in the domain, so the result is never above the true maximum; it may be below.
-//! If distances are measured inside the domain, circles across the outside count here too, which makes it smaller still.
+//! For constant f the gap is largest at circumcentres, or on the boundary in the middle between two vertices. For
+//! graded f the maxima move away from there, by a share of a circle. So the gap is measured at all circumcentres inside
+//! the domain and in the middle of all pieces of segments. From the points with the largest gaps, the search climbs
+//! with shrinking steps. All these points lie in the domain, so the result is never above the true maximum; it may be
+//! below. If distances are measured inside the domain, circles across the outside count here too, which makes the
+//! result smaller still.
 
 use super::boundary::NO_SEGMENT;
 use super::parallel;
@@ -19,7 +20,7 @@ use crate::geometry::DVec2;
 use crate::geometry::tolerance::CERTIFICATE;
 use std::f64::consts::TAU;
 
-/// The number of largest points from which the search climbs.
+/// The number of points from which the search climbs: those with the largest gaps.
 const CLIMBED: usize = 32;
 /// Directions tried with each step.
 const DIRECTIONS: usize = 8;
@@ -54,7 +55,7 @@ struct Gaps<'a> {
     subject: &'a Subject<'a>,
     sizes: &'a Sizes<'a>,
     c_p: f64,
-    /// Radius of a packing circle over that of the biting circle as the tree has it.
+    /// Radius of a packing circle over that of the biting circle in the tree.
     share: f64,
 }
 
@@ -99,7 +100,7 @@ impl<'a> Gaps<'a> {
         }))
     }
 
-    /// The largest gap that steps from a seed lead to: along its piece first, if it lies on one.
+    /// The largest gap to which steps from a seed lead: along its piece first, if it lies on one.
     fn climb(&self, seed: &Seed) -> f64 {
         let reach = 0.25 * self.c_p * self.sizes.bounds.spacing.at(seed.at);
         let (mut at, mut best) = (seed.at, seed.gap);
@@ -143,7 +144,7 @@ impl<'a> Gaps<'a> {
     }
 }
 
-/// The [`CLIMBED`] seeds with the largest gaps, and those that tie with the last of them.
+/// At least the [`CLIMBED`] seeds with the largest gaps, and all that tie with the last one kept.
 fn largest(seeds: impl Iterator<Item = Seed>) -> Vec<Seed> {
     let mut seeds: Vec<Seed> = seeds.collect();
     if seeds.len() > CLIMBED {
@@ -258,7 +259,7 @@ mod tests {
         assert!((beta(&domain, &mesh, &uniform, 0.5) - (8f64.sqrt() - 1.0)).abs() < 1e-12);
     }
 
-    /// Where triangles at the boundary are obtuse their circumcentres lie outside, and the gap is largest on a segment.
+    /// If triangles at the boundary are obtuse, their circumcentres lie outside, and the gap is largest on a segment.
     #[test]
     fn the_largest_gap_may_lie_on_a_segment_away_from_its_middle() {
         let flat = |turn: f64, x: f64| {
@@ -278,9 +279,10 @@ mod tests {
                 0.5,
             )
         };
-        // On the upper side, u from the further corner, u² = (0.55 − u)² + 0.3². Circumcentres inside are 0.32 from theirs.
+        // On the upper side, at u from the farther corner, u² = (0.55 − u)² + 0.3². Circumcentres inside are 0.32 from
+        // their corners.
         let exact = (0.3025 + 0.09) / 1.1 / 0.25 - 1.0;
-        // Turned so that none of the directions that are tried in the plane follows a segment.
+        // Turned so that no direction tried in the plane follows a segment.
         let turns = [0.2, 1.7, 3.3, 4.9];
         for (turn, x) in turns.into_iter().flat_map(|turn| [(turn, 0.45), (turn, 0.55)]) {
             let found = flat(turn, x);
@@ -291,7 +293,7 @@ mod tests {
         }
     }
 
-    /// Steps as long as a quarter of a circle may lead past the ends of a piece: what lies there does not count.
+    /// Steps of a quarter of a circle's radius may lead past the ends of a piece: gaps there do not count.
     #[test]
     fn no_gap_is_looked_for_outside() {
         let corners = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y, DVec2::splat(0.5)];

@@ -1,12 +1,13 @@
-//! Work over ranges in parallel, with results in order: what is folded from them does not depend on the threads.
+//! Work over ranges in parallel, with results in order, so that what is folded from them does not depend on the
+//! threads.
 
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Items a task gets: enough to hide the cost of a task, few enough to share out.
+/// Items per task: enough to hide the cost of a task, few enough to share out.
 const CHUNK: usize = 2048;
 
-/// Runs `work` on consecutive ranges that make up 0..count; the results come in order.
+/// Runs `work` on consecutive ranges that make up 0..count, and returns the results in order.
 pub fn map_ranges<T: Send>(count: usize, work: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
     let ranges = count.div_ceil(CHUNK);
     (0..ranges)

@@ -1,11 +1,11 @@
-//! How high above the boundary the circles of neighbouring boundary vertices meet (§6.2), which Theorem 6.8 rests on.
+//! How high above the boundary the circles of neighbouring boundary vertices meet (§6.2), on which Theorem 6.8 rests.
 //!
-//! Lemmas 6.3 and 6.4 bound that height if step 4 put one of the two centres there: on the other's circle, or in the middle of
-//! a gap. Nothing bounds it if step 4 had nothing to do, because the circles of the two input vertices of a segment already
-//! cover it between them: they may overlap as little as one likes, and the front vertex above their overlap then makes a
-//! flat triangle with them. The paper excludes that case without saying so. It cannot
-//! occur where c_b + t ≤ 1: with m the middle of a segment of length L, f(m) ≤ lfs(m) ≤ L/2, so the two radii are at
-//! most c_b (L/2 + α L/2) each and add up to at most (c_b + t) L.
+//! Lemmas 6.3 and 6.4 bound that height if step 4 put one of the two centres there: on the other's circle, or in the
+//! middle of a gap. Nothing bounds it if step 4 had nothing to do, because the circles of the two input vertices of a
+//! segment together cover it already. They may overlap arbitrarily little, and the front vertex above their overlap
+//! then makes a flat triangle with them. The paper excludes that case without saying so. It cannot occur if c_b + t ≤
+//! 1: with m the middle of a segment of length L, f(m) ≤ lfs(m) ≤ L/2, so the two radii are at most c_b (L/2 + α L/2)
+//! each and add up to at most (c_b + t) L.
 
 use super::boundary::{Boundary, NO_SEGMENT};
 use super::tally::{Tally, Worst};
@@ -19,7 +19,7 @@ use crate::theory::least_meeting_height;
 
 /// The heights at which neighbouring boundary circles meet, over the smaller of their radii.
 pub struct Heights {
-    /// Where step 4 put one of the two.
+    /// Those at edges where step 4 put one of the two centres.
     protected: Tally,
     /// Segments bitten at their two input vertices only, whose circles meet lower than the bound.
     pub low_head_on: usize,
@@ -27,7 +27,7 @@ pub struct Heights {
 }
 
 impl Heights {
-    /// Those of all mesh edges on input segments.
+    /// The heights at all mesh edges on input segments.
     pub fn measure(
         domain: &Domain,
         mesh: &Mesh,

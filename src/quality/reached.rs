@@ -1,4 +1,4 @@
-//! With distances inside the domain, circles and vertices count only for what they reach there ([`Reach`]), which the judge finds
+//! With distances inside the domain, circles and vertices count only for what they reach there. [`Reach`] finds this
 //! from the domain alone.
 
 use super::discs::{Disc, DiscTree};
@@ -22,7 +22,7 @@ pub struct Reached {
 }
 
 impl Reached {
-    /// What these circles reach.
+    /// Finds what these circles reach.
     pub fn new(domain: &Domain, circles: &DiscTree) -> Self {
         let reach = Reach::new(domain).ok();
         let discs = circles.discs();
@@ -61,8 +61,8 @@ impl Reached {
         is_parted
     }
 
-    /// The smallest radius with which a disc around `x` reaches two vertices, itself included where it is one, given the
-    /// smallest with which it holds two.
+    /// The smallest radius with which a disc around `x` reaches two vertices (`x` itself included, if it is one), given
+    /// the smallest radius with which it holds two.
     pub fn second_nearest(&self, circles: &DiscTree, x: DVec2, nearest: f64) -> f64 {
         let Some(reach) = &self.reach else { return f64::NAN };
         if nearest.is_infinite() || reach.part(x, nearest).is_none() {
@@ -88,8 +88,8 @@ impl Reached {
 }
 
 impl Sizes<'_> {
-    /// Whether two vertices must keep a distance from each other: always, unless distances are measured inside the domain, and
-    /// the circle of the one with the larger spacing holds the other without reaching it.
+    /// Whether two vertices must keep a distance from each other. They need not only if distances are measured inside
+    /// the domain, and the circle of the one with the larger spacing holds the other without reaching it.
     pub fn are_joined(&self, one: &Disc, other: &Disc) -> bool {
         let [larger, smaller] = match one.radius >= other.radius {
             true => [one, other],

@@ -1,4 +1,4 @@
-//! Angles and circles of triangles, in plain floating point: numbers to report, never signs to decide by.
+//! Angles and circles of triangles, in plain floating point: numbers to report, never signs by which to decide.
 
 use crate::geometry::DVec2;
 
@@ -13,7 +13,7 @@ pub fn centroid(corners: [DVec2; 3]) -> DVec2 {
     corners.iter().sum::<DVec2>() / 3.0
 }
 
-/// Centre of the circle through the corners; not finite where they are collinear.
+/// Centre of the circle through the corners; not finite if they are collinear.
 pub fn circumcentre([a, b, c]: [DVec2; 3]) -> DVec2 {
     let (u, v) = (b - a, c - a);
     a + (v.perp() * u.length_squared() - u.perp() * v.length_squared()) / (-2.0 * u.perp_dot(v))

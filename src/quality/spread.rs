@@ -61,20 +61,20 @@ struct Sample {
     at: DVec2,
 }
 
-/// A claim that low ≤ nn / f ≤ high.
+/// The claim that low ≤ nn / f ≤ high.
 struct Between {
     low: f64,
     high: f64,
 }
 
 impl Between {
-    /// The worst on either side over `count` places, some of which have none.
+    /// The worst values on either side over `count` places; a place without a sample is left out.
     fn measure(&self, count: usize, sample: impl Fn(usize) -> Option<Sample> + Sync) -> [Tally; 2] {
         let parts = parallel::map_ranges(count, |range| {
             let (mut lower, mut upper) = (Tally::new(Worst::Smallest), Tally::new(Worst::Largest));
             for Sample { nn, f, at } in range.filter_map(&sample) {
                 let ratio = nn / f;
-                // nn is a distance of two centres, and f is compared with that: as for packing circles.
+                // nn is a distance of two centres, which f is compared with, so rounding counts as for packing circles.
                 let rounding = CENTRE_ULPS * f64::EPSILON * at.abs().max_element() / f;
                 lower.see(ratio, at, ratio < self.low * (1.0 - CERTIFICATE) - rounding);
                 upper.see(ratio, at, ratio > self.high * (1.0 + CERTIFICATE) + rounding);
@@ -93,7 +93,7 @@ impl Between {
     }
 }
 
-/// Both bounds on the number of vertices; the integral's error is granted.
+/// Both bounds on the number of vertices, with allowance for the integral's error.
 fn vertex_counts(subject: &Subject, sizes: &Sizes, integral: Integral) -> [Check; 2] {
     let Integral { value, error, .. } = integral;
     let integral = [value * (1.0 - error), value * (1.0 + error)];

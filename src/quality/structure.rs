@@ -1,4 +1,4 @@
-//! Structural checks: what every mesh must be, whoever made it.
+//! Structural checks: what must hold for every mesh, whoever made it.
 
 use super::boundary::{NO_SEGMENT, same_vertex_distance};
 use super::subject::Subject;
@@ -95,8 +95,8 @@ fn area(subject: &Subject) -> Check {
     }
 }
 
-/// The area between boundary and segments that `input-segments` lets a mesh have, as a share of the domain's. More than
-/// [`AREA`] only where a domain is narrower than a millionth of its distance to the origin.
+/// The area that `input-segments` allows between the mesh's boundary and the segments, as a share of the domain's area.
+/// It is more than [`AREA`] only if the domain is narrower than a millionth of its distance to the origin.
 fn area_beside_segments(subject: &Subject) -> f64 {
     let domain = subject.domain;
     let sides = (0..domain.segments().len()).filter(|&s| domain.is_boundary(s));
@@ -183,8 +183,8 @@ fn constrained_delaunay(subject: &Subject) -> Check {
     }
 }
 
-/// By how many degrees the angles opposite to an edge exceed 180 together: 0 if the edge is Delaunay by the exact
-/// predicate, above 0 if not; `None` unless it has a triangle on either side.
+/// By how many degrees the two angles opposite to an edge together exceed 180: 0 if the edge is Delaunay by the exact
+/// predicate, above 0 if not; `None` unless the edge has a triangle on either side.
 fn delaunay_excess_deg(subject: &Subject, edge: &Edge) -> Option<f64> {
     let mesh = subject.mesh;
     let far = |t: u32| {
@@ -196,7 +196,7 @@ fn delaunay_excess_deg(subject: &Subject, edge: &Edge) -> Option<f64> {
     };
     let [a, b, left, right] =
         [edge.ends[0], edge.ends[1], far(edge.left)?, far(edge.right)?].map(|k| mesh.points[k as usize]);
-    // The signs of in_circle assume a counter-clockwise triangle; one that is not fails another check.
+    // The signs of in_circle assume a counter-clockwise triangle; any other triangle fails another check.
     if orient2d(a, b, left) <= 0.0 || in_circle(a, b, left, right) <= 0.0 {
         return Some(0.0);
     }

@@ -1,4 +1,4 @@
-//! What several checks need of a mesh, computed once.
+//! What several checks need to know of a mesh, computed once.
 
 use super::boundary::Boundary;
 use super::discs::DiscTree;
@@ -18,16 +18,16 @@ pub struct Subject<'a> {
     pub mesh: &'a Mesh,
     pub adjacency: Adjacency,
     pub boundary: Boundary,
-    /// For each mesh vertex the smallest angle in degrees that opens into the domain there, if it is an input vertex where
-    /// one is under 60°; else infinite.
+    /// For each mesh vertex, the smallest angle in degrees that opens into the domain there, if it is an input vertex
+    /// with one under 60°; else infinite.
     acute: Vec<f64>,
     /// How many triangles touch such a vertex.
     pub excused: usize,
-    /// The spacing and what is derived from it, if there is one.
+    /// The spacing and what is computed from it, if there is one.
     pub sizes: Option<Sizes<'a>>,
 }
 
-/// The spacing at the mesh.
+/// The spacing, and what is computed from it at the mesh.
 pub struct Sizes<'a> {
     pub bounds: Bounds<'a>,
     pub hypotheses: Hypotheses,
@@ -48,7 +48,7 @@ pub struct Sizes<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// Prepares any mesh.
+    /// Prepares a mesh from anywhere.
     pub fn new(domain: &'a Domain, mesh: &'a Mesh, bounds: Option<&Bounds<'a>>) -> Self {
         let adjacency = mesh.adjacency();
         let boundary = Boundary::find(domain, mesh, &adjacency);
@@ -147,7 +147,7 @@ impl<'a> Sizes<'a> {
         second_nearest(&self.circles, self.reached.as_ref(), x)
     }
 
-    /// Whether what the circle of a vertex holds of the domain counts at its point `x`.
+    /// Whether the circle of a vertex counts at a point `x` that it holds.
     pub fn counts(&self, id: u32, x: DVec2) -> bool {
         self.reached.as_ref().is_none_or(|reached| reached.counts(id, x))
     }
@@ -157,7 +157,7 @@ impl<'a> Sizes<'a> {
         self.hypotheses.t
     }
 
-    /// The bounds for the rule and t at hand.
+    /// The bounds for this rule and t.
     pub fn promises(&self) -> Promises {
         Promises {
             rule: self.bounds.rule,
@@ -165,7 +165,7 @@ impl<'a> Sizes<'a> {
         }
     }
 
-    /// Whether a claim is guaranteed: by the method, where the hypotheses hold.
+    /// Whether the method guarantees a claim and the claim's hypotheses hold.
     pub fn applies(&self, claim: Claim) -> bool {
         self.bounds.guaranteed.contains(&claim) && self.hypotheses.imply(claim)
     }

@@ -1,4 +1,4 @@
-//! Collects the worst value of a check and who broke it.
+//! Collects the worst value of a check and the places that broke it.
 
 use super::{Check, WITNESSES};
 use crate::geometry::DVec2;
@@ -13,7 +13,7 @@ pub enum Worst {
     Largest,
 }
 
-/// The worst value seen so far, where, and how many broke the claim.
+/// The worst value seen so far with its place, and the number of values that broke the claim.
 #[derive(Clone, Debug)]
 pub struct Tally {
     which: Worst,
@@ -23,7 +23,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Nothing seen yet.
+    /// A tally that has seen nothing yet.
     pub fn new(which: Worst) -> Self {
         Self {
             which,
@@ -50,7 +50,7 @@ impl Tally {
         }
     }
 
-    /// Adds what a later part saw; of equal values the earlier one stays.
+    /// Adds what a later part saw; of equal worst values the earlier one stays.
     pub fn join(mut self, later: Self) -> Self {
         if let Some((value, at)) = later.worst {
             self.see(value, at, false);
@@ -66,7 +66,7 @@ impl Tally {
         parts.into_iter().fold(Self::new(which), Self::join)
     }
 
-    /// The check; it holds if nothing broke it.
+    /// The check, which holds if nothing broke the claim.
     pub fn check(self, claim: Claim, applies: bool, bound: f64) -> Check {
         Check {
             claim,
@@ -98,7 +98,7 @@ mod tests {
                 tally.see(value, at(place), false);
             }
             let place = if which == Worst::Smallest { 1.0 } else { 2.0 };
-            // In parts as in one.
+            // Parts joined give the same as the whole.
             let mut later = Tally::new(which);
             later.see(worst, at(9.0), false);
             let parts = Tally::all(which, [tally.clone(), later.clone()]).check(Claim::Area, true, 0.0);

@@ -56,14 +56,14 @@ const CLAIMS: [Claim; 12] = [
     Claim::VerticesUpper,
 ];
 
-/// The paper's and the one structural claim that not all methods make.
+/// The paper's claims, and the one structural claim that not all methods make.
 const GUARANTEED: [Claim; 13] = {
     let mut all = [Claim::ConstrainedDelaunay; 13];
     all.split_at_mut(1).1.copy_from_slice(&CLAIMS);
     all
 };
 
-/// Everything guaranteed, c_b as given.
+/// Bounds with this c_b, and every claim guaranteed.
 pub(super) fn bounds(spacing: &dyn Spacing, c_b: f64) -> Bounds<'_> {
     Bounds {
         spacing,
@@ -103,7 +103,7 @@ fn mesh(points: &[DVec2], triangles: &[[u32; 3]]) -> Mesh {
     }
 }
 
-/// The unit square around `middle`, four triangles.
+/// The unit square in four triangles around `middle`.
 fn fan(middle: DVec2) -> Mesh {
     mesh(
         &[&SQUARE[..], &[middle]].concat(),
@@ -234,7 +234,7 @@ fn each_structural_check_breaks_where_it_should() {
 }
 
 #[test]
-fn segments_and_delaunay_edges_are_told_apart() {
+fn segments_and_delaunay_edges_are_distinguished() {
     let kite = [p(0.0, 0.0), p(2.0, -1.0), p(4.0, 0.0), p(2.0, 1.0)];
     let long = mesh(&kite, &[[0, 1, 2], [0, 2, 3]]);
     let short = mesh(&kite, &[[0, 1, 3], [1, 2, 3]]);
@@ -290,7 +290,7 @@ const L: [DVec2; 6] = [
     DVec2::new(0.0, 2.0),
 ];
 
-/// An L with a square hole, its boundary cut into pieces, with further points inside.
+/// An L with a square hole, its boundary cut into pieces, and further points inside.
 fn l_with_hole(parts: usize, inside: &[(f64, f64)]) -> (Domain, Mesh) {
     let mut pslg = Pslg::new("l");
     pslg.add_ring(L, 1);
@@ -328,7 +328,7 @@ fn l_with_hole(parts: usize, inside: &[(f64, f64)]) -> (Domain, Mesh) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
-    /// Packing and nearest neighbours by definition, over all pairs.
+    /// Packing and nearest neighbours agree with their definitions, by loops over all pairs.
     #[test]
     fn distances_agree_with_looking_at_all_pairs(
         inside in prop::collection::vec((0.0f64..2.0, 0.0f64..2.0), 1..40),

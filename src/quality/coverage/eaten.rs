@@ -1,9 +1,9 @@
 //! Coverage by the rule of the later point: every point z of the domain has a vertex within g(z) = c_b f(z).
 //!
-//! The distance to the nearest vertex less g changes by at most 1 + t times the way. So a triangle is decided from its
-//! centroid, or quartered. Near a point where the two are equal, as many front vertices are, a bounded number of parts is left
-//! at each quartering, since the difference falls away from there on all sides; what is within [`CERTIFICATE`] of being
-//! covered is.
+//! The distance to the nearest vertex less g changes by at most 1 + t per unit of length. So a triangle is decided by
+//! its centroid, or quartered. Many front vertices are points where the distance equals g. Near such a point a bounded
+//! number of parts is left at each quartering, since the difference falls off from there on all sides. A point counts
+//! as covered if it is within [`CERTIFICATE`] of that.
 
 use super::{Subject, Tally, Worst, disc_around, parallel};
 use crate::geometry::DVec2;
@@ -16,8 +16,8 @@ use std::collections::VecDeque;
 /// Most quarterings of a triangle and its parts.
 const QUARTERED: usize = 1 << 15;
 
-/// `coverage`, worst being the largest distance to the nearest vertex over g found; `is_whole` where the triangles are known to
-/// make up the domain.
+/// `coverage`: its worst value is the largest distance to the nearest vertex over g. `is_whole` says that the triangles
+/// are known to make up the domain.
 pub fn check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
     let seen = parallel::map_ranges(subject.mesh.triangles.len(), |range| {
         let mut tally = Tally::new(Worst::Largest);
@@ -34,16 +34,16 @@ pub fn check(subject: &Subject, sizes: &Sizes, is_whole: bool) -> Check {
     });
     let mut tally = Tally::all(Worst::Largest, seen);
     if !is_whole {
-        // Triangles that are not those of the domain tell nothing of it.
+        // If the triangles do not make up the domain, they show nothing about it.
         tally.see(f64::INFINITY, subject.domain.bounds().centre(), true);
     }
     Check {
-        lemma: "rule of the later".into(),
+        lemma: "rule of the later point".into(),
         ..sizes.check(tally, Claim::Coverage, 1.0)
     }
 }
 
-/// Notes distance over g at a point, returns both, and says whether the point is covered.
+/// Notes distance over g at a point, and returns both and whether the point is covered.
 fn see(tally: &mut Tally, x: DVec2, sizes: &Sizes, f: f64) -> (f64, f64, bool) {
     let (distance, g) = (sizes.circles.nearest_rim(x, 0.0), sizes.bounds.c_b * f);
     let is_covered = distance <= g * (1.0 + CERTIFICATE);
@@ -51,8 +51,8 @@ fn see(tally: &mut Tally, x: DVec2, sizes: &Sizes, f: f64) -> (f64, f64, bool) {
     (distance, g, is_covered)
 }
 
-/// Whether all points of a triangle are covered; larger parts first, so that it ends soon where some are not. Nothing is
-/// told where too many parts would be needed.
+/// Whether all points of a triangle are covered. Larger parts come first, so that this ends soon if some are not. None
+/// if too many parts would be needed.
 fn is_covered(corners: [DVec2; 3], tally: &mut Tally, sizes: &Sizes) -> Option<bool> {
     let mut waiting = VecDeque::from([corners]);
     let mut quarterings = 0;

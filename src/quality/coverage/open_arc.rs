@@ -1,8 +1,9 @@
-//! Coverage where circles count only for what they reach inside the domain.
+//! Coverage if circles count only for what they reach inside the domain.
 //!
-//! What a circle reaches is bounded by its circle and by the boundary of the domain, and nothing else. So the domain is
-//! covered, as long as its boundary is, if no arc of a circle is left that the circle reaches and that no other one does. On the
-//! arcs between the points where a circle meets others and the boundary nothing changes: each is asked at its middle.
+//! What a circle reaches is bounded by the circle itself and by the boundary of the domain, and by nothing else. So the
+//! domain is covered if its boundary is, and if no arc of a circle is left that this circle reaches and no other one
+//! does. Nothing changes along an arc between the points where a circle meets others and the boundary, so the middle of
+//! each arc decides.
 
 use super::{Arc, Disc, Sizes, covered_arc};
 use crate::domain::Domain;
@@ -10,7 +11,7 @@ use crate::geometry::DVec2;
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-/// Shorter arcs, in radians, are rounding: circles are enlarged by more.
+/// Arcs shorter than this, in radians, are rounding errors: circles are enlarged by more.
 const SHORTEST: f64 = 1e-12;
 
 /// The longest arc of the disc's circle that it reaches and no other disc does, in radians; 0 if there is none.

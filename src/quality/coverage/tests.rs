@@ -1,4 +1,4 @@
-//! Arcs, stretches and triangles that discs cover, against sampling.
+//! Arcs, stretches and triangles that discs cover, compared with sampling.
 
 use super::*;
 use crate::domain::gallery;
@@ -36,7 +36,7 @@ fn is_within(angle: f64, (from, to): (f64, f64)) -> bool {
     [angle, angle + TAU].iter().any(|angle| (from..=to).contains(angle))
 }
 
-/// The longest run of samples that are `open`, of a row or of a circle.
+/// The longest run of samples that are `open`, in a row or around a circle.
 fn longest_run(open: &[bool], is_circle: bool) -> usize {
     let twice = [open, if is_circle { open } else { &[] }].concat();
     let runs = twice.split(|is_open| !is_open).map(<[bool]>::len);
@@ -77,7 +77,7 @@ proptest! {
         let expected = longest_run(&open, true) as f64 * STEP;
         let found = largest_gap(&disc(0.5, 0.5, 0.4), &mut arcs, &unit_square());
         prop_assert!((found - expected).abs() <= 1.001 * STEP, "{found}, sampled {expected}");
-        // Away from the domain nothing need be covered.
+        // Outside the domain nothing need be covered.
         prop_assert_eq!(largest_gap(&disc(5.0, 0.5, 0.4), &mut arcs, &unit_square()), 0.0);
     }
 

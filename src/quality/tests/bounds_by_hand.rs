@@ -1,4 +1,4 @@
-//! The paper's bounds and what they are held against, on meshes small enough to work out.
+//! The paper's bounds and the values compared with them, on meshes small enough to work out.
 
 use super::*;
 use crate::theory::Claim;
@@ -42,7 +42,7 @@ fn every_bound_is_what_the_paper_says_for_t_a_quarter_and_c_b_a_half() {
         (Claim::NnVertexUpper, 4.0 / 3.0),
         (Claim::NnPointLower, 0.2),
         (Claim::NnPointUpper, 22.0 / 9.0),
-        // (9/16) · 2 / (π / 4), less a quarter, and 4 · (25/16) · 2 / (π / 4), and a quarter.
+        // (9/16) · 2 / (π / 4) less a quarter, and 4 · (25/16) · 2 / (π / 4) plus a quarter.
         (Claim::VerticesLower, 3.375 / std::f64::consts::PI),
         (Claim::VerticesUpper, 62.5 / std::f64::consts::PI),
     ] {
@@ -73,7 +73,7 @@ fn without_t_under_1_there_is_no_upper_bound() {
     }
 }
 
-/// nn is the distance to the nearest other vertex, at a vertex; elsewhere to the second nearest.
+/// At a vertex, nn is the distance to the nearest other vertex; elsewhere, to the second nearest.
 #[test]
 fn ratios_of_nn_are_those_of_a_graded_spacing() {
     let spacing = Linear {
@@ -88,14 +88,15 @@ fn ratios_of_nn_are_those_of_a_graded_spacing() {
     // Middles of spokes at heights ¼ and ¾, of sides at 0, ½ and 1, which are circumcentres too.
     assert_near(worst(Claim::NnPointLower), 0.5 * half / 1.375, "upper spokes");
     assert_near(worst(Claim::NnPointUpper), 0.5, "the lower side");
-    // c_p = ½ / (2 + ¼), and the upper corners are nearest to the middle for their size.
+    // c_p = ½ / (2 + ¼), and for their size the upper corners are nearest to the middle.
     assert_near(worst(Claim::PackingDisjoint), half / (2.0 / 9.0 * 2.75), "upper spokes");
 }
 
 #[test]
 fn centres_are_granted_the_rounding_of_their_coordinates() {
     let half = 0.5f64.sqrt();
-    // Relative room: a billionth, and at coordinates of a million 10 ulp, 2.22e-9, over what they are compared with.
+    // The relative room is a billionth and, at coordinates of a million, 10 ulp (2.22e-9) over what they are compared
+    // with.
     for (claim, c_b, at_origin, far_away) in [
         (Claim::PackingDisjoint, half, 1e-9, 4.14e-9),
         (Claim::NnVertexLower, half, 1e-9, 4.14e-9),
@@ -108,7 +109,7 @@ fn centres_are_granted_the_rounding_of_their_coordinates() {
             let mut mesh = fan(p(0.5, 0.5));
             mesh.points = far(&mesh.points);
             let square = domain(&far(&SQUARE), &[]);
-            // c_b is negative where the claim breaks as it falls; of c_b and f only the product counts.
+            // c_b is negative for claims that break as it falls; only the product of c_b and f counts.
             for (share, holds, f) in [
                 (0.95, true, 1.0),
                 (1.05, false, 1.0),
@@ -124,14 +125,14 @@ fn centres_are_granted_the_rounding_of_their_coordinates() {
     }
 }
 
-/// Vertices by the share of their packing circles that surely lies in the domain.
+/// Vertices count by the share of their packing circles that surely lies in the domain.
 #[test]
 fn packing_circles_count_by_what_surely_lies_inside() {
     let shares = |ring: &[DVec2], inner: &[DVec2], points: &[DVec2], c_b: f64| {
         let (domain, mesh) = (domain(ring, inner), mesh(&[ring, points].concat(), &[]));
         check(&domain, &mesh, &bounds(&UNIFORM, c_b), Claim::VerticesUpper).worst
     };
-    // c_p = 0.1. Four corners make one circle.
+    // c_p = 0.1. The four corners together make one circle.
     assert_near(shares(&SQUARE, &[], &[], 0.2), 1.0, "corners");
     for (point, share) in [
         (p(0.5, 0.5), 1.0),
@@ -143,7 +144,7 @@ fn packing_circles_count_by_what_surely_lies_inside() {
     ] {
         assert_near(shares(&SQUARE, &[], &[point], 0.2), 1.0 + share, point.to_string());
     }
-    // Inside, segments do not count; at the ends of one, its two angles do.
+    // Segments inside the domain do not count; at the ends of one, its two angles do.
     let across = [SQUARE[0], SQUARE[2]];
     assert_near(
         shares(&SQUARE, &across, &[p(0.5, 0.5)], 0.2),
@@ -157,7 +158,8 @@ fn packing_circles_count_by_what_surely_lies_inside() {
     assert_near(shares(&bar, &[], &[], 0.3), 1.5, "a straight corner");
     assert_near(shares(&bar, &[], &[], 0.5), 0.75, "a third side");
     assert_near(shares(&L, &[], &[], 0.2), 5.0 * 0.25 + 0.75, "an inward corner");
-    // Graded, t = 1 and so c_p = 1/6: (½, y) has f = 1 + 2y, a circle that stays within up to y = ¼ and not above.
+    // With a graded spacing, t = 1 and so c_p = 1/6. At (½, y), f = 1 + 2y: the circle meets the lower side up to y =
+    // ¼, and not above.
     let graded = Linear {
         base: 1.0,
         slope: p(0.0, 2.0),
@@ -176,7 +178,7 @@ fn packing_circles_count_by_what_surely_lies_inside() {
 }
 
 #[test]
-fn angles_at_a_corner_are_held_against_the_smallest_input_angle_there() {
+fn angles_at_a_corner_are_compared_with_the_smallest_input_angle_there() {
     // Half of an equilateral triangle: input angles of 30°, 60° and 90°.
     let half = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0 / 3f64.sqrt())];
     let domain = domain(&half, &[]);

@@ -1,4 +1,4 @@
-//! The bounds by the rule of the later point: coverage against sampling, and every bound by hand.
+//! The bounds by the rule of the later point: coverage compared with sampling, and every bound by hand.
 
 use super::*;
 use crate::theory::Claim;
@@ -31,7 +31,8 @@ fn the_middles_of_sides_are_the_last_covered() {
 
 #[test]
 fn what_the_point_itself_asks_for_decides() {
-    // g is 0.3 in the middle of the left side, which is ½ from three vertices; the circle of one of them, 0.6 large, holds it.
+    // In the middle of the left side g is 0.3. Three vertices are ½ from there, and the circle of one of them, of
+    // radius 0.6, holds it.
     let spacing = Linear {
         base: 0.3,
         slope: p(0.6, 0.0),
@@ -124,7 +125,7 @@ proptest! {
         let sampled = samples.map(ratio).fold(0.0, f64::max);
         prop_assert!(check.holds || check.worst.unwrap() > 1.0);
         prop_assert!(!check.holds || sampled <= 1.0 + 1e-8, "sampled {sampled}, {check:?}");
-        // A step of the grid changes the ratio by little.
+        // One step of the grid changes the ratio only a little.
         prop_assert!(check.holds || sampled > 0.85, "sampled {sampled}, {check:?}");
         let [x, y] = check.at.unwrap();
         prop_assert!((ratio(p(x, y)) - check.worst.unwrap()).abs() < 1e-9);

@@ -5,7 +5,7 @@ use crate::quality::coverage::coverage_check;
 use crate::quality::subject::Subject;
 use crate::theory::Claim;
 
-/// By definition: whether every sample of the domain is in a disc whose radius is changed by `change`.
+/// Coverage by definition: whether every sample of the domain is in a disc whose radius is changed by `change`.
 fn samples_covered(domain: &Domain, mesh: &Mesh, radius: impl Fn(DVec2) -> f64, change: f64) -> bool {
     let samples =
         (0..=SAMPLES).flat_map(|i| (0..=SAMPLES).map(move |j| p(i as f64, j as f64) * (2.0 / SAMPLES as f64)));
@@ -19,7 +19,7 @@ const SAMPLES: usize = 64;
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
-    /// What samples refute, the check refutes; what samples prove with room to spare, the check confirms.
+    /// The check refutes what samples refute, and confirms what samples prove with room to spare.
     #[test]
     fn coverage_agrees_with_dense_sampling(
         inside in prop::collection::vec((0.0f64..2.0, 0.0f64..2.0), 0..60),
@@ -42,9 +42,9 @@ proptest! {
         }
     }
 
-    /// Circles through no open triangle need not be asked: they have no gap.
+    /// Circles through no open triangle need not be examined: they have no gap.
     #[test]
-    fn asking_circles_through_open_triangles_finds_all_that_asking_all_of_them_does(
+    fn examining_circles_through_open_triangles_finds_all_that_examining_all_of_them_does(
         inside in prop::collection::vec((0.0f64..2.0, 0.0f64..2.0), 0..60),
         parts in 1usize..6,
         base in 0.1f64..0.5,
@@ -71,7 +71,7 @@ fn of_circles_that_all_overlap_no_more_than_a_few_hundred_each_are_counted() {
 
 /// A hole in the mesh is a hole in the cover, although every triangle there is covered.
 #[test]
-fn where_triangles_are_missing_all_circles_are_asked() {
+fn where_triangles_are_missing_all_circles_are_examined() {
     let ring = [
         (0.0, 0.0),
         (0.5, 0.0),
@@ -91,13 +91,13 @@ fn where_triangles_are_missing_all_circles_are_asked() {
     );
     let check = certificate.check(Claim::Coverage).unwrap();
     assert!(!check.holds && check.broken == 4, "{check:?}");
-    // The circle around (½, 0) is bare from where those around its neighbours, √½ away, end to where they begin.
+    // The circle around (½, 0) is bare between the circles around its two neighbours, which are √½ away.
     let bare = std::f64::consts::FRAC_PI_2 - 2.0 * (0.5f64.sqrt() / 0.8).acos();
     assert!((check.worst.unwrap() - bare).abs() < 1e-8, "{check:?}");
 }
 
 #[test]
-fn a_piece_that_no_chain_follows_is_looked_at_whole() {
+fn a_piece_that_no_chain_follows_is_examined_whole() {
     let (_, certificate) = judge(
         &domain(&SQUARE, &[]),
         &mesh(&SQUARE, &[]),
@@ -115,8 +115,8 @@ fn a_piece_that_no_chain_follows_is_looked_at_whole() {
 
 #[test]
 fn circles_and_pieces_that_are_bare_are_counted() {
-    // Spokes, √½ long, are covered. A fifth of each side is not, nor is the circle in the middle. What is bare of the others has
-    // its middle outside, and crosses the boundary where that is bare.
+    // Spokes, √½ long, are covered. A fifth of each side is not, nor is the circle in the middle. The bare arcs of the
+    // other circles have their middles outside, and cross the boundary where it is bare.
     let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&UNIFORM, 0.4)));
     assert_eq!(certificate.check(Claim::Coverage).unwrap().broken, 5);
 }

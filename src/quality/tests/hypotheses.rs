@@ -1,4 +1,4 @@
-//! What the bounds need, at the edge of it.
+//! What the bounds need, up to the limits.
 
 use super::*;
 use crate::domain::InputSegment;
@@ -17,7 +17,7 @@ const RIGHT: Hypotheses = Hypotheses {
     corners_hide: false,
 };
 
-/// The claims that do not follow.
+/// The claims that do not follow from some hypotheses.
 fn missing(hypotheses: Hypotheses) -> Vec<Claim> {
     CLAIMS.into_iter().filter(|claim| !hypotheses.imply(*claim)).collect()
 }
@@ -94,24 +94,24 @@ fn every_claim_needs_what_the_table_says() {
     ] {
         assert_eq!(missing(hypotheses), expected, "{hypotheses:?}");
     }
-    // At t = 1 there is neither cover nor nn; only what needs no t, and just below only what needs t ≤ 1/3 is missing.
+    // At t = 1 only the claims that need nothing of t are left; just below, only those that need t ≤ 1/3 are missing.
     let steep = Hypotheses {
         t: 1f64.next_down(),
         ..RIGHT
     };
     assert_eq!(missing(steep), of_section_6);
     for t in [1.0, 1.5] {
-        let told = CLAIMS
+        let left = CLAIMS
             .into_iter()
             .filter(|claim| Hypotheses { t, ..RIGHT }.imply(*claim));
         assert_eq!(
-            told.collect::<Vec<_>>(),
+            left.collect::<Vec<_>>(),
             [Claim::PackingDisjoint, Claim::CornerAngles, Claim::VerticesUpper]
         );
     }
 }
 
-/// A spacing that is flat comes down to corners only where it need not.
+/// With a flat spacing the bound beyond corners follows only if no corner has to be cut off.
 #[test]
 fn corners_of_a_flat_spacing_can_be_cut_only_where_circles_leave_room_and_no_angle_is_small() {
     let holds = |hypotheses: Hypotheses| hypotheses.imply(Claim::MinAngleBeyondCorners);
@@ -268,7 +268,7 @@ fn distances_inside_the_domain_need_a_small_t_and_the_rule_of_the_paper() {
     for none in [steep, later, hiding] {
         assert_eq!(missing(none), CLAIMS);
     }
-    // That t itself will do.
+    // The largest t itself is enough.
     assert_ne!(
         missing(Hypotheses {
             t: GEODESIC_T,
@@ -285,7 +285,7 @@ fn distances_inside_the_domain_need_a_small_t_and_the_rule_of_the_paper() {
     );
 }
 
-/// A corner of 45° and one of 225° at a vertex, with angles outside of 45° each; and without the larger one.
+/// A vertex with corners of 45° and 225° inside and two angles of 45° outside; and one without the larger corner.
 #[test]
 fn a_corner_hides_what_lies_behind_it_where_the_angle_outside_is_below_180_degrees() {
     let bounds = bounds(&UNIFORM, 0.5);
@@ -296,7 +296,7 @@ fn a_corner_hides_what_lies_behind_it_where_the_angle_outside_is_below_180_degre
         Domain::new(pslg).expect("a valid domain")
     };
     assert!(!hides(&corner(&[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0)])));
-    // No corner is cut off at a vertex with 200° or so inside.
+    // No corner is cut off at a vertex with an angle of about 200° inside.
     assert!(!hides(&corner(&[(0.0, 0.0), (-3.0, -1.0), (0.0, 4.0), (3.0, -1.0)])));
     let two_rings = |first: &[(f64, f64)], others: &[(f64, f64)]| {
         let mut pslg = Pslg::new("two corners");
@@ -308,13 +308,13 @@ fn a_corner_hides_what_lies_behind_it_where_the_angle_outside_is_below_180_degre
             .extend(sides.map(|(a, b)| InputSegment { a, b, marker: 1 }));
         Domain::new(pslg).expect("a valid domain")
     };
-    // Nor at one where two squares meet.
+    // Nor at a vertex where two squares meet.
     let squares = two_rings(
         &[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)],
         &[(-2.0, 0.0), (-2.0, -2.0), (0.0, -2.0)],
     );
     assert!(!hides(&squares));
-    // Outside a straight side nothing hides, though an inner segment makes a corner on it.
+    // Outside a straight side nothing hides, although an inner segment makes a corner on it.
     let mut pslg = Pslg::new("on a side");
     pslg.add_ring(
         [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (-2.0, 2.0), (-2.0, 0.0)].map(DVec2::from),

@@ -4,7 +4,7 @@ use super::*;
 use crate::quality::boundary::Boundary;
 use crate::theory::Claim;
 
-/// What is broken where the lower side of the square is cut at a point near (½, 0).
+/// What is broken if the lower side of the square is cut at a point near (½, 0).
 fn cut_at(middle: DVec2, shift: DVec2) -> Vec<Claim> {
     let ring = SQUARE.map(|x| x + shift);
     let points = [&ring[..], &[middle + shift]].concat();
@@ -36,7 +36,7 @@ fn a_piece_lies_along_its_segment_to_a_billionth_of_its_length() {
 
 #[test]
 fn a_vertex_is_found_within_four_ulp_of_the_largest_coordinate_and_no_further() {
-    // The square turned into a kite, its vertices shuffled, and one off by so many ulp of 4.
+    // The square turned into a kite, its vertices shuffled, and one of them moved by `ulps` ulp of 4.
     let kite = [p(0.0, 0.0), p(2.0, -1.0), p(4.0, 0.0), p(2.0, 1.0)];
     let ulp = 4.0 * f64::EPSILON;
     for moved in 0..4 {
@@ -47,7 +47,7 @@ fn a_vertex_is_found_within_four_ulp_of_the_largest_coordinate_and_no_further() 
                     points[moved] += sign * ulps * ulp * axis;
                     let is_found = !broken(&domain(&kite, &[]), &mesh(&points, &[[3, 2, 1], [2, 0, 1]]), None)
                         .contains(&Claim::InputVertices);
-                    // Beside 4, doubles are coarser above.
+                    // Above 4, doubles are coarser.
                     assert!(
                         is_found == expected || points[moved].x > 4.0,
                         "{moved} by {ulps} ulp along {axis}"
@@ -58,9 +58,9 @@ fn a_vertex_is_found_within_four_ulp_of_the_largest_coordinate_and_no_further() 
     }
 }
 
-/// Of vertices with one x the right one is found, exact or not.
+/// Of vertices with the same x the right one is found, exact or not.
 #[test]
-fn vertices_above_one_another_are_told_apart() {
+fn vertices_above_one_another_are_distinguished() {
     let ring = [
         p(0.0, 0.0),
         p(1.0, 0.0),
@@ -82,9 +82,9 @@ fn vertices_above_one_another_are_told_apart() {
     }
 }
 
-/// A segment that no chain of edges follows is told with the place up to which one does.
+/// A segment that no chain of edges follows is reported with the place up to which one does.
 #[test]
-fn a_broken_chain_is_told_where_it_breaks() {
+fn a_broken_chain_is_reported_where_it_breaks() {
     let points = [&SQUARE[..], &[p(0.25, 0.0), p(0.75, 0.0), p(0.5, 0.5)]].concat();
     let square = domain(&SQUARE, &[]);
     // Nothing joins the two points on the lower side.
@@ -93,17 +93,18 @@ fn a_broken_chain_is_told_where_it_breaks() {
     let check = certificate.check(Claim::InputSegments).unwrap();
     assert_eq!((check.worst, check.broken, check.at), (Some(1.0), 1, Some([0.25, 0.0])));
     assert_eq!(check.witnesses, [[0.25, 0.0]]);
-    // A vertex that is not there is told by where it should be.
+    // A missing vertex is reported by the place where it should be.
     let without = mesh(&SQUARE[..3], &[[0, 1, 2]]);
     let (_, certificate) = judge(&square, &without, None);
     assert_eq!(certificate.check(Claim::InputVertices).unwrap().witnesses, [[0.0, 1.0]]);
     assert_eq!(certificate.check(Claim::InputSegments).unwrap().broken, 2);
 }
 
-/// Edges beyond the end, backwards, or beside the segment are none of its pieces.
+/// Edges beyond the end, backwards, or beside the segment are not pieces of it.
 #[test]
 fn a_chain_takes_the_edge_that_follows_the_segment_best_and_no_further_than_its_end() {
-    // Segment 0 ends at (1, 0), and the ring goes on straight to (2, 0): the whole lower side as one edge is no chain.
+    // Segment 0 ends at (1, 0), and the ring goes on straight to (2, 0): the whole lower side as one edge is not a
+    // chain.
     let ring = [p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(2.0, 1.0), p(0.0, 1.0)];
     let jumped = mesh(&ring, &[[0, 2, 3], [0, 3, 4]]);
     let found = broken(&domain(&ring, &[]), &jumped, None);
@@ -115,9 +116,9 @@ fn a_chain_takes_the_edge_that_follows_the_segment_best_and_no_further_than_its_
     assert_eq!(broken(&domain(&ring, &[]), &whole, None), []);
 }
 
-/// Of two points within four ulp the one with the very coordinates is the vertex.
+/// Of two points within four ulp, the one with exactly the coordinates is the vertex.
 #[test]
-fn a_vertex_is_the_point_with_its_very_coordinates_where_there_is_one() {
+fn a_vertex_is_the_point_with_exactly_its_coordinates_if_there_is_one() {
     let ring = [
         p(1.0, 0.0),
         p(2.0, 0.0),
@@ -140,7 +141,7 @@ fn a_vertex_is_the_point_with_its_very_coordinates_where_there_is_one() {
     }
 }
 
-/// Along a segment there may be a sliver: its outer side is the chain, in which the edges turn least from the segment.
+/// Along a segment there may be a sliver. Its outer side is the chain: there the edges turn least from the segment.
 #[test]
 fn of_edges_that_all_follow_a_segment_the_chain_takes_the_straightest() {
     // The point of the sliver nearer to the segment need not be on the straighter edge.

@@ -11,7 +11,7 @@ fn assert_near(found: f64, expected: f64) {
 
 #[test]
 fn statistics_of_four_different_triangles() {
-    // Around (½, ⅕): below, at each side and above. A foot is ½ wide and ⅕ or ⅘ high.
+    // Triangles around (½, ⅕): below, at each side and above. Half of one is ½ wide and ⅕ or ⅘ high.
     let (below, above) = (0.4f64.atan().to_degrees(), 1.6f64.atan().to_degrees());
     let beside = 90.0 - above;
     let spacing = Linear {
@@ -33,9 +33,10 @@ fn statistics_of_four_different_triangles() {
         [0.0, 0.0, 0.25, 0.25, 0.75, 1.0]
     );
     let (low, high) = (0.29f64.sqrt(), 0.89f64.sqrt());
-    // Circumradius = side over twice the sine of the angle opposite; below, that is twice `below`.
+    // The circumradius is a side over twice the sine of the angle opposite; in the lower triangle that angle is 180°
+    // less twice `below`.
     assert_near(found.max_radius_edge, 0.5 / (2.0 * below).to_radians().sin() / low);
-    // Lower, upper, left and right side; spokes from below and above; over c_b f at their middles.
+    // Lengths over c_b f at the middles: lower, upper, left and right side, then spokes from below and above.
     let mut ratios = [
         1.0,
         1.0 / 1.5,
@@ -53,13 +54,13 @@ fn statistics_of_four_different_triangles() {
     assert_near(edges.p05, between(0, 0.35));
     assert_near(edges.p50, between(3, 0.5));
     assert_near(edges.p95, between(6, 0.65));
-    // Each is nearest to the middle vertex, it to the lower corners.
+    // Each corner is nearest to the middle vertex, and that to the lower corners.
     let nn = found.nn_over_f.unwrap();
     assert_near(nn.min, low / 1.1);
     assert_near(nn.max, high / 1.5);
 }
 
-/// Triangles whose angles are 60° as far as rounding lets them fall into the last bin.
+/// Triangles whose angles are 60° up to rounding are in the last bin.
 #[test]
 fn equilateral_triangles_are_in_the_last_bin() {
     let domain = domain(&SQUARE, &[]);
@@ -111,7 +112,7 @@ fn angles_where_fronts_met_have_mean_share_and_percentile_of_their_own() {
     assert_near(seams.met.share_under_30, 1.0 / 3.0);
     assert_near(seams.elsewhere.min_deg, 90.0 - above);
     assert_near(seams.elsewhere.share_under_30, 0.0);
-    // None is left where all touch a corner under 60°.
+    // None is left if all touch a corner under 60°.
     let sliver = [p(0.0, 0.0), p(4.0, 0.0), p(4.0, 1.0)];
     let met = Mesh {
         seams: vec![0],
@@ -129,7 +130,7 @@ fn angles_where_fronts_met_have_mean_share_and_percentile_of_their_own() {
 }
 
 #[test]
-fn angles_where_fronts_met_are_told_apart() {
+fn angles_where_fronts_met_are_distinguished() {
     // Quarters of the square, the upper one cut into two of 45°, 22.5°, 112.5° and 45°, 67.5°, 67.5°.
     let points = [SQUARE.as_slice(), &[p(0.5, 0.5), p(0.5f64.sqrt(), 1.0)]].concat();
     let triangles = [[0, 1, 4], [1, 2, 4], [2, 5, 4], [5, 3, 4], [3, 0, 4]];

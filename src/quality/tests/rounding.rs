@@ -1,4 +1,5 @@
-//! Where a value is a share of a billionth beside its bound, it holds; further beside, it does not.
+//! A claim holds if its value misses the bound by less than a share of a billionth; it breaks if the value misses by
+//! more.
 
 use super::*;
 use crate::theory::Claim;
@@ -38,7 +39,7 @@ fn the_smallest_angle_may_be_a_billionth_under_the_bound() {
 
 #[test]
 fn an_angle_at_a_corner_may_be_a_billionth_and_the_rounding_of_its_shortest_side_under_the_input_angle() {
-    // At 2^20, four ulp over the shortest side, tan 30°, are another 1.61e-9.
+    // At 2^20, four ulp over the shortest side, which is tan 30°, are another 1.61e-9.
     for (shift, room) in [(0.0, 1e-9), ((1u32 << 20) as f64, 2.61e-9)] {
         let shift = DVec2::splat(shift);
         let domain = domain(&thirty(0.0, shift), &[]);
@@ -54,8 +55,8 @@ fn an_angle_at_a_corner_may_be_a_billionth_and_the_rounding_of_its_shortest_side
 
 #[test]
 fn circles_may_meet_a_billionth_lower_than_9() {
-    // With t = 0 circles of radius ⅓ around points ½ apart meet at √7 / 4 of their radius; of a radius smaller by a share,
-    // lower by 9/7 of the share.
+    // With t = 0, circles of radius ⅓ around points ½ apart meet at √7 / 4 of their radius. If the radius is smaller by
+    // a share, they meet lower by 9/7 of that share.
     let cut = mesh(
         &[&SQUARE[..], &[p(0.5, 0.0)]].concat(),
         &[[0, 4, 3], [4, 2, 3], [4, 1, 2]],
@@ -68,7 +69,7 @@ fn circles_may_meet_a_billionth_lower_than_9() {
             "{share}"
         );
     }
-    // Uncut sides met as low are told apart.
+    // Uncut sides whose circles meet as low are counted apart.
     for (share, expected) in [(0.7e-9, 0), (0.85e-9, 4)] {
         let c_b = 2.0 * (1.0 - share) / 3.0;
         let (_, certificate) = judge(&domain(&SQUARE, &[]), &fan(p(0.5, 0.5)), Some(&bounds(&UNIFORM, c_b)));
@@ -78,7 +79,7 @@ fn circles_may_meet_a_billionth_lower_than_9() {
 
 #[test]
 fn heights_are_over_the_smaller_radius() {
-    // The sides at the left and right are so short that circles there meet high.
+    // The sides at the left and right are so short that their circles meet high.
     let ring = [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 0.1), p(0.0, 0.1)];
     let cut = mesh(
         &[&ring[..], &[p(0.5, 0.0)]].concat(),
@@ -90,8 +91,9 @@ fn heights_are_over_the_smaller_radius() {
     };
     let (_, certificate) = judge(&domain(&ring, &[]), &cut, Some(&bounds(&graded, 0.5)));
     let check = certificate.check(Claim::BoundaryHeight).unwrap();
-    // Along the upper side radii are ½ and 1: by Pythagoras the foot is ⅛ behind the first. Around (½, 0) and (1, 0), where
-    // they are ¾ and 1, it is 3/16 before the first, and the height the same share; elsewhere circles meet higher.
+    // Along the upper side the radii are ½ and 1: by Pythagoras the foot is ⅛ behind the first. Around (½, 0) and (1,
+    // 0) the radii are ¾ and 1: the foot is 3/16 before the first, and the height is the same share. Elsewhere circles
+    // meet higher.
     let height = (0.25f64 - 1.0 / 64.0).sqrt() / 0.5;
     assert!(
         (check.worst.unwrap() - height).abs() < 1e-12,

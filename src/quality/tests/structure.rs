@@ -1,4 +1,4 @@
-//! Worst values, places and rooms of the structural checks.
+//! Worst values, places and tolerances of the structural checks.
 
 use super::*;
 use crate::quality::structure::Structure;
@@ -14,7 +14,7 @@ fn moved(points: &[DVec2], shift: DVec2, scale: f64) -> Vec<DVec2> {
 }
 
 #[test]
-fn the_smallest_signed_area_is_told_with_its_triangle() {
+fn the_smallest_signed_area_is_reported_with_its_triangle() {
     let square = domain(&SQUARE, &[]);
     let check = checked(&square, &fan(p(0.5, 0.25)), Claim::PositiveOrientation);
     assert_eq!((check.worst, check.bound, check.holds), (Some(0.125), Some(0.0), true));
@@ -49,18 +49,19 @@ fn areas_are_compared_relative_to_the_domains() {
             "{double:?}"
         );
     }
-    // What is not a number is no area.
+    // An area that is not a number breaks the claim.
     let mut none = fan(p(0.5, 0.5));
     none.points[4] = DVec2::NAN;
     assert!(!checked(&domain(&SQUARE, &[]), &none, Claim::Area).holds);
 }
 
-/// Far from the origin the boundary may lie four ulp beside its segments, and the area be off by that times its length.
+/// Far from the origin the boundary may lie four ulp beside its segments, and the area may be off by that times their
+/// length.
 #[test]
 fn the_area_may_be_off_by_what_lies_beside_segments() {
     let (shift, scale) = ((1u32 << 24) as f64, 2.0);
     let ring = moved(&SQUARE, DVec2::splat(shift), scale);
-    // ulp · perimeter / area, the ulp of coordinates just over 2^24 being 2^-28.
+    // Four ulp · perimeter / area; the ulp of coordinates just over 2^24 is 2^-28.
     let allowed = 4.0 / (1u32 << 28) as f64 * 8.0 / 4.0;
     for inner in [&[][..], &[ring[0], ring[2]]] {
         let mut mesh = fan(p(0.5, 0.5));
@@ -81,7 +82,7 @@ fn places_that_should_not_be_there_are_counted() {
     let unused = checked(&square, &more, Claim::VerticesUsed);
     assert_eq!((unused.worst, unused.bound, unused.broken), (Some(2.0), Some(0.0), 2));
     assert_eq!(unused.witnesses, [[0.25, 0.3], [0.75, 0.3]]);
-    // Told with where it is only where it is broken.
+    // The place is reported only if the check is broken.
     let whole = fan(p(0.5, 0.5));
     for claim in [Claim::ManifoldEdges, Claim::ConstrainedDelaunay] {
         let check = checked(&square, &whole, claim);
@@ -116,7 +117,7 @@ fn an_edge_is_not_delaunay_by_as_much_as_its_opposite_angles_exceed_180_degrees(
         "{check:?}"
     );
     assert_eq!(check.at, Some([2.0, 0.0]));
-    // Four vertices on a circle are Delaunay either way; one a bit within it is not, by however little.
+    // Four vertices on a circle are Delaunay either way; if one is inside the circle, by however little, they are not.
     let on_circle = |inward: f64| {
         let ring = [p(0.0, 0.0), p(1.0, 0.0), p(1.0 - inward, 1.0 - inward), p(0.0, 1.0)];
         checked(
@@ -128,7 +129,7 @@ fn an_edge_is_not_delaunay_by_as_much_as_its_opposite_angles_exceed_180_degrees(
     assert_eq!((on_circle(0.0).worst, on_circle(0.0).holds), (Some(0.0), true));
     let barely = on_circle(f64::EPSILON);
     assert!(!barely.holds && barely.worst.unwrap() > 0.0, "{barely:?}");
-    // Of triangles that are not counter-clockwise nothing is asked here.
+    // This check does not examine triangles that are not counter-clockwise.
     let folded = [p(0.0, 0.0), p(4.0, 0.0), p(4.0, 4.0), p(0.0, 4.0), p(2.0, -1.0)];
     let check = checked(
         &domain(&folded[..4], &[]),
