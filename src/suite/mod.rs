@@ -7,7 +7,7 @@
 //! | [`rows`] | what an experiment leaves: a record for each mesh, the journal of a run, what made them |
 //! | [`run`] | from a plan (TOML) to rows |
 //! | `analysis` | what rows say together |
-//! | `charts`, `report` | figures by plotters, pages from rows alone |
+//! | `charts`, `report` | figures by plotters, pages from rows |
 //! | `lemmas` | every statement of the paper with a bound, judged numerically and on meshes; errata |
 //! | `figures`, `replay` | the paper's figures from real runs, and a run to step through |
 //! | [`cli`] | one file per verb |

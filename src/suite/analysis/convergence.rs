@@ -1,4 +1,4 @@
-//! L2 error against vertices, gathered from the rows of adaptation: by problem, adapted and uniform.
+//! L2 error against vertices, gathered by problem, adapted and uniform.
 
 use crate::suite::analysis::summary::measured;
 use crate::suite::rows::numbers::{Line, first_seen, fit_line};

@@ -5,6 +5,7 @@ pub mod convergence;
 pub mod expect;
 pub mod expect_battery;
 pub mod frontier;
+pub mod measures;
 pub mod remarks;
 pub mod results;
 pub mod series;

@@ -2,6 +2,7 @@
 //! of its page shows.
 
 use crate::suite::analysis::contest::Contest;
+use crate::suite::analysis::measures::{AT_EQUAL_COUNT, AT_EQUAL_SIZE, Measure, REASONS};
 use crate::suite::analysis::summary::{Grid, by_spacing};
 use crate::suite::rows::journal::{JournalError, read_rows};
 use crate::suite::rows::record::{ROWS, Row};
@@ -23,6 +24,18 @@ pub enum ResultsError {
     Rows(#[from] JournalError),
 }
 
+/// All methods asked alike.
+pub struct Asking<'a> {
+    /// What is equal.
+    pub title: &'static str,
+    /// Who was asked what.
+    pub contest: Contest<'a>,
+    /// What they are compared by.
+    pub measures: &'static [Measure],
+    /// What explains the differences.
+    pub reasons: &'static [Measure],
+}
+
 /// An experiment that was run.
 #[derive(Clone, Debug)]
 pub struct Results {
@@ -34,6 +47,8 @@ pub struct Results {
     pub expect: Expectations,
     /// The sections of its page, each with the names of the groups whose rows it shows.
     pub sections: BTreeMap<Section, BTreeSet<String>>,
+    /// The sections whose first findings answer the question; none for the first that has any.
+    pub headline: Vec<Section>,
     /// Its rows.
     pub rows: Vec<Row>,
 }
@@ -46,6 +61,7 @@ impl Results {
             about: plan.about,
             expect: plan.expect,
             sections: plan.sections,
+            headline: plan.headline,
             rows,
         }
     }
@@ -104,5 +120,23 @@ impl Results {
     pub fn at_equal_count(&self, section: Section) -> Contest<'_> {
         let own = self.of(section).into_iter();
         Contest::of(own.filter(|row| row.cell.triangles.is_some()))
+    }
+
+    /// Both, with what methods are compared by in each.
+    pub fn askings(&self, section: Section) -> [Asking<'_>; 2] {
+        [
+            Asking {
+                title: "equal edge length",
+                contest: self.at_equal_size(section),
+                measures: &AT_EQUAL_SIZE,
+                reasons: &REASONS,
+            },
+            Asking {
+                title: "equal triangle count",
+                contest: self.at_equal_count(section),
+                measures: &AT_EQUAL_COUNT,
+                reasons: &[],
+            },
+        ]
     }
 }

@@ -132,8 +132,14 @@ impl<'a> Grid<'a> {
     }
 
     /// The median of `value` over the reports at (t, c_b).
-    pub fn median(&self, t: f64, c_b: f64, value: impl Fn(&Report) -> f64) -> Option<f64> {
-        median(self.at(t, c_b).into_iter().filter_map(measured).map(value).collect())
+    pub fn median(&self, t: f64, c_b: f64, value: impl Fn(&Report) -> Option<f64>) -> Option<f64> {
+        median(
+            self.at(t, c_b)
+                .into_iter()
+                .filter_map(measured)
+                .filter_map(value)
+                .collect(),
+        )
     }
 
     /// The same without the domains that have acute angles, as far as their reports tell.
@@ -186,7 +192,7 @@ pub struct Pair {
 }
 
 /// The pairs no other pair beats in both smallest angle and size, from few triangles to many.
-pub fn frontier(pairs: &[Pair]) -> Vec<Pair> {
+pub fn unbeaten_pairs(pairs: &[Pair]) -> Vec<Pair> {
     unbeaten(pairs, |pair| pair.size_ratio_lfs, |pair| pair.smallest_angle_deg)
 }
 

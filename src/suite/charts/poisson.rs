@@ -5,8 +5,8 @@ use super::legend::{Entry, Key, legend};
 use super::panel::{Axis, Panel, log_span, span};
 use super::style::{self, INK, TITLE};
 use crate::suite::analysis::contest::Contest;
+use crate::suite::analysis::measures::YIELDS;
 use crate::suite::analysis::summary::measured;
-use crate::suite::fem::Solution;
 use crate::suite::rows::record::Report;
 use plotters::prelude::{DrawingBackend, Text};
 use plotters::style::text_anchor::{HPos, VPos};
@@ -14,37 +14,6 @@ use std::path::Path;
 
 /// Height of the title, in pixels.
 const HEAD: i32 = 40;
-
-/// A number that does not change with size where a mesher makes meshes of one quality.
-pub struct Yield {
-    /// For axes and tables.
-    pub label: &'static str,
-    /// From what was measured.
-    pub value: fn(&Solution) -> Option<f64>,
-}
-
-/// Errors scaled by the power of unknowns with which they fall, iterations by that with which they grow.
-pub const YIELDS: [Yield; 4] = [
-    Yield {
-        label: "energy error · √unknowns",
-        value: |solution| Some(solution.energy_error / solution.energy_norm * (solution.unknowns as f64).sqrt()),
-    },
-    Yield {
-        label: "L2 error · unknowns",
-        value: |solution| Some(solution.l2_error / solution.l2_norm * solution.unknowns as f64),
-    },
-    Yield {
-        label: "iterations / √unknowns",
-        value: |solution| {
-            let iterations = solution.converged.then_some(solution.iterations as f64)?;
-            Some(iterations / (solution.unknowns as f64).sqrt())
-        },
-    },
-    Yield {
-        label: "largest eigenvalue",
-        value: |solution| Some(solution.spectrum?.largest),
-    },
-];
 
 /// Draws each of [`YIELDS`] against unknowns, over the tasks of a contest.
 ///
@@ -60,10 +29,10 @@ struct Poisson<'a> {
 }
 
 impl Poisson<'_> {
-    fn line(&self, method: usize, value: fn(&Solution) -> Option<f64>) -> Vec<(f64, f64)> {
+    fn line(&self, method: usize, value: fn(&Report) -> Option<f64>) -> Vec<(f64, f64)> {
         let point = |report: &Report| {
             let solution = report.poisson.as_ref()?;
-            Some((solution.unknowns as f64, value(solution).filter(|value| *value > 0.0)?))
+            Some((solution.unknowns as f64, value(report).filter(|value| *value > 0.0)?))
         };
         let mut points: Vec<(f64, f64)> = self
             .contest
@@ -94,7 +63,7 @@ impl Figure for Poisson<'_> {
             let lines: Vec<_> = all.iter().map(|k| (*k, self.line(*k, wanted.value))).collect();
             let points = || lines.iter().flat_map(|(_, line)| line.iter().copied());
             let x = Axis::log("unknowns", log_span(points().map(|point| point.0))).sparse();
-            let y = Axis::linear(wanted.label, span(points().map(|point| point.1)), 6);
+            let y = Axis::linear(wanted.title, span(points().map(|point| point.1)), 6);
             let mut panel = Panel::new(part, "", x, y, 86)?;
             for (k, line) in &lines {
                 let marker = style::method(&self.contest.methods[*k]);

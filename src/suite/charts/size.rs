@@ -4,32 +4,12 @@ use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::legend::{Entry, Key, colour_bar, legend};
 use super::panel::{Axis, Panel, log_span, span};
 use super::style::{self, GREY, INK, Marker, SMALL, TINY, TITLE};
+use crate::suite::analysis::measures::Measure;
 use crate::suite::analysis::summary::{Grid, measured};
 use crate::suite::rows::record::Report;
 use plotters::prelude::{DrawingBackend, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 use std::path::Path;
-
-/// A number of a report, as shown on an axis.
-#[derive(Clone, Copy)]
-pub struct Measure {
-    /// What the axis says.
-    pub label: &'static str,
-    /// Where the number is.
-    pub value: fn(&Report) -> f64,
-}
-
-/// Triangles over ∫ dA / f² (Lemma 5.10, Theorem 5.11).
-pub const SIZE_RATIO: Measure = Measure {
-    label: "triangles / ∫dA/f²",
-    value: |report| report.size_ratio,
-};
-
-/// Triangles over ∫ dA / lfs².
-pub const SIZE_RATIO_LFS: Measure = Measure {
-    label: "triangles / ∫dA/lfs²",
-    value: |report| report.size_ratio_lfs,
-};
 
 /// A grid with the title it stands under.
 pub type Titled<'a> = (String, Grid<'a>);
@@ -38,7 +18,7 @@ pub type Titled<'a> = (String, Grid<'a>);
 ///
 /// # Errors
 /// [`ChartError`].
-pub fn heat_map(grids: &[Titled], measure: Measure, stem: &Path) -> Result<(), ChartError> {
+pub fn heat_map(grids: &[Titled], measure: &Measure, stem: &Path) -> Result<(), ChartError> {
     write_both(&HeatMap { grids, measure }, stem)
 }
 
@@ -46,7 +26,7 @@ pub fn heat_map(grids: &[Titled], measure: Measure, stem: &Path) -> Result<(), C
 ///
 /// # Errors
 /// [`ChartError`].
-pub fn against_t(grids: &[Titled], measure: Measure, stem: &Path) -> Result<(), ChartError> {
+pub fn against_t(grids: &[Titled], measure: &Measure, stem: &Path) -> Result<(), ChartError> {
     write_both(&AgainstT { grids, measure }, stem)
 }
 
@@ -60,7 +40,7 @@ pub fn efficiency(grids: &[Titled], stem: &Path) -> Result<(), ChartError> {
 
 struct HeatMap<'a> {
     grids: &'a [Titled<'a>],
-    measure: Measure,
+    measure: &'a Measure,
 }
 
 /// Room for what stands right of the panels, in pixels.
@@ -74,7 +54,7 @@ fn columns<DB: DrawingBackend>(area: &Area<DB>, count: usize) -> (Vec<Area<DB>>,
 }
 
 /// All medians of all grids, for a common scale.
-fn medians<'a>(grids: &'a [Titled<'a>], value: fn(&Report) -> f64) -> impl Iterator<Item = f64> + 'a {
+fn medians<'a>(grids: &'a [Titled<'a>], value: fn(&Report) -> Option<f64>) -> impl Iterator<Item = f64> + 'a {
     grids.iter().flat_map(move |(_, grid)| {
         let pairs = grid.ts.iter().flat_map(|t| grid.c_bs.iter().map(move |c_b| (*t, *c_b)));
         pairs.filter_map(move |(t, c_b)| grid.median(t, c_b, value))
@@ -95,7 +75,7 @@ impl Figure for HeatMap<'_> {
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
         let (head, body) = area.split_vertically(40 * FINE);
-        let title = format!("{}, median over domains", self.measure.label);
+        let title = format!("{}, median over domains", self.measure.title);
         let look = style::text(TITLE, INK, HPos::Left, VPos::Center);
         head.draw(&Text::new(title, (80 * FINE, 22 * FINE), look))?;
         let (panels, side) = columns(&body, self.grids.len());
@@ -134,7 +114,7 @@ fn three_digits(value: f64) -> String {
 
 struct AgainstT<'a> {
     grids: &'a [Titled<'a>],
-    measure: Measure,
+    measure: &'a Measure,
 }
 
 /// The legend of c_b, with markers and colours as everywhere.
@@ -159,7 +139,7 @@ impl Figure for AgainstT<'_> {
         for ((title, grid), area) in self.grids.iter().zip(&panels) {
             let reach = grid.ts.last().copied().unwrap_or(0.5);
             let x = Axis::linear("t", 0.0..reach * 1.06, 6);
-            let mut panel = Panel::new(area, title, x, Axis::log(self.measure.label, scale.clone()), 86)?;
+            let mut panel = Panel::new(area, title, x, Axis::log(self.measure.title, scale.clone()), 86)?;
             for (index, c_b) in grid.c_bs.iter().enumerate() {
                 let value = |t: &f64| Some((*t, grid.median(*t, *c_b, self.measure.value)?));
                 let points: Vec<(f64, f64)> = grid.ts.iter().filter_map(value).collect();

@@ -49,7 +49,7 @@ enum Verb {
     Figures(figures::Arguments),
     /// Judge every bound of the paper: against its numerical optimum, and against measured meshes
     Lemmas(lemmas::Arguments),
-    /// Make charts and pages again from the rows alone
+    /// Make charts and pages again from what a run left
     Report(report::Arguments),
     /// List domains, meshers with parameters, spacings, peers and experiments
     List,

@@ -1,4 +1,4 @@
-//! `report`: charts and pages again, from the rows alone.
+//! `report`: charts and pages again, without measuring anew.
 
 use super::exit::{Failure, Outcome};
 use super::output::say;
@@ -16,11 +16,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     write(&arguments.folder)
 }
 
-/// Writes charts and page of a results folder, and the findings into the README of the working folder if that asks for
-/// them.
+/// Writes charts and page of a results folder, and into the README of the working folder what that quotes of them.
 pub fn write(folder: &Path) -> Outcome {
     let page = report::write(folder).map_err(Failure::input)?;
     say(format_args!("rows, charts and page: {}", page.display()));
-    report::quote_findings(folder, Path::new("README.md")).map_err(Failure::input)?;
+    report::quote(folder, Path::new("README.md")).map_err(Failure::input)?;
     Ok(())
 }

@@ -10,10 +10,11 @@ use crate::mesh::Mesh;
 use crate::meshers::{MESHERS, Parameters};
 use crate::quality::angles_deg;
 use crate::spacing::{self, Ingredients, Options, Spacing, Spec, lfs_of};
+use crate::suite::analysis::measures::SIZE_RATIO;
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::series::{TimeSeries, time_series};
 use crate::suite::analysis::summary::{Grid, Setting, measured, setting};
-use crate::suite::charts::{self, SIZE_RATIO};
+use crate::suite::charts;
 use crate::suite::rows::numbers::median;
 use crate::suite::rows::record::{Cell, Row};
 use crate::suite::run::measure::fingerprint;
@@ -122,7 +123,7 @@ pub(super) fn size(material: &Material) -> Result<Drawing<'_>, String> {
     let numbers = Numbers::default().with("t_c_b_median", values.collect::<Vec<_>>());
     Ok(Drawing {
         picture: Picture::Chart(Box::new(|stem| {
-            charts::against_t(&sweep.grids(Section::Size), SIZE_RATIO, stem)
+            charts::against_t(&sweep.grids(Section::Size), &SIZE_RATIO, stem)
         })),
         caption,
         numbers,

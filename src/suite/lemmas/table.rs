@@ -177,8 +177,9 @@ pub fn judge_all(meshes: &Meshes, only: Option<&str>) -> Vec<Line> {
 pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found]) -> String {
     let count = |word: &str| lines.iter().filter(|line| line.printed.word() == word).count();
     let mut text = format!(
-        "# The paper's statements, judged twice\n\nMade by `cargo run --release -- lemmas` from the records in `src/suite/lemmas/statements`; nothing here is typed.\n\n\
-         {} formulas: {} sharp, {} hold without being the optimum, {} fail somewhere in their range, {} open. What is wrong, with proofs and \
+        "# The paper's statements, judged twice\n\nMade by `cargo run --release -- lemmas`: what the paper states is written in `src/suite/lemmas/statements`, every number is \
+         computed from that or read from the committed meshes.\n\n\
+         **In short.** Of {} formulas {} are sharp, {} hold without being the optimum, {} fail somewhere in their range and {} are open. What is wrong, with proofs and \
          counterexamples, is in [paper/errata.md](../../paper/errata.md).\n\n\
          **Numerically**: the optimum of the bounded quantity over all configurations that the hypotheses allow, bracketed by interval branch and bound at {} \
          values of the parameter over the range that the paper claims. **On meshes**: the worst value over its bound of the certificate's check, over {} committed \

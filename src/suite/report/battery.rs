@@ -1,7 +1,8 @@
 //! `README.md` of an experiment of batteries: how many cases ended how, and why.
 
 use super::markdown::{number, plain, table};
-use crate::suite::analysis::expect_battery::{by_method, findings, sums};
+use super::page::bullets;
+use crate::suite::analysis::expect_battery::{self, by_method, sums};
 use crate::suite::rows::numbers::first_seen;
 use crate::suite::run::battery::chunk::{Chunk, Reason, Tally};
 use crate::suite::run::battery::trial::Verdict;
@@ -24,9 +25,14 @@ const VERDICTS: [(Verdict, &str); 7] = [
 /// The whole page.
 pub(super) fn page(chunks: &[Chunk], plan: &Plan, name: &str) -> String {
     let mut text = format!("# Results of `{name}`\n\n");
-    text += "This page is made from `chunks.jsonl` alone, by `biting report`; nothing here is typed.\n\n";
+    text += &format!("Made by `biting report results/{name}` from the chunks and the plan beside this page.\n\n");
     text += &format!("**Question.** {}\n\n", plan.question.trim());
-    text += &format!("## Main findings\n\n{}\n", finding_lines(chunks));
+    let findings = findings(chunks);
+    text += &format!(
+        "**In short.** {}\n\n## Findings\n\n{}\n",
+        findings[0].clone(),
+        bullets(findings)
+    );
     text += &expected(chunks, &plan.expect);
     text += &what_was_run(chunks, name);
     text += &families(chunks);
@@ -35,52 +41,45 @@ pub(super) fn page(chunks: &[Chunk], plan: &Plan, name: &str) -> String {
     text + &reasons(chunks)
 }
 
-/// The outcome in a few lines.
-pub(super) fn finding_lines(chunks: &[Chunk]) -> String {
+/// How cases ended, and what was not run.
+pub(super) fn findings(chunks: &[Chunk]) -> Vec<String> {
     let all = total(chunks);
     let count = |verdict| all.count(verdict);
-    let (tried, valid) = (all.tried(), all.valid());
-    let mut text = format!(
-        "* **{tried} cases** of {} families by {} methods: {} certified, {} declined ({}), {} stopped by a budget; {} panicked, \
-         {} hung, {} invalid.\n",
-        first_seen(chunks.iter().map(|chunk| chunk.family.as_str())).len(),
-        by_method(chunks).len(),
+    let never = [Verdict::Panicked, Verdict::Hung, Verdict::Invalid].map(count);
+    let never = match never {
+        [0, 0, 0] => "none panicked, hung or was invalid".to_owned(),
+        [panicked, hung, invalid] => format!("{panicked} panicked, {hung} hung, {invalid} were invalid"),
+    };
+    let mut findings = vec![format!(
+        "Of {} hard cases, {} ended certified, {} declined and {} stopped by a budget; {never}.",
+        all.tried(),
         count(Verdict::Certified),
         count(Verdict::Declined),
-        percent(count(Verdict::Declined), valid),
-        count(Verdict::Stopped),
-        count(Verdict::Panicked),
-        count(Verdict::Hung),
-        count(Verdict::Invalid),
-    );
-    let declined: Vec<String> = by_method(chunks)
-        .iter()
-        .map(|tally| {
-            let (declined, stopped) = (tally.count(Verdict::Declined), tally.count(Verdict::Stopped));
-            let valid = tally.valid();
-            format!(
-                "{} {} and {}",
-                tally.method,
-                percent(declined, valid),
-                percent(stopped, valid)
-            )
-        })
-        .collect();
-    text += &format!(
-        "* **Declined and stopped, of valid domains**: {}.\n",
-        declined.join("; ")
-    );
+        count(Verdict::Stopped)
+    )];
+    let share = |tally: &Tally| tally.count(Verdict::Declined) as f64 / tally.valid().max(1) as f64;
+    let most = by_method(chunks)
+        .into_iter()
+        .max_by(|a, b| share(a).total_cmp(&share(b)));
+    findings.extend(most.map(|tally| {
+        format!(
+            "Of valid domains, {} declines the most: {}.",
+            tally.method,
+            percent(tally.count(Verdict::Declined), tally.valid())
+        )
+    }));
     let refused = count(Verdict::Refused);
     if refused > 0 {
-        text +=
-            &format!("* **{refused} cases** have a domain that is no valid PSLG, and were refused with the reason.\n");
+        findings.push(format!(
+            "{refused} cases have a domain that is no valid PSLG, and were refused with the reason."
+        ));
     }
     for chunk in chunks {
         if let Some(reason) = &chunk.skipped {
-            text += &format!("* **Skipped**, so not passed: {}, {reason}.\n", chunk.family);
+            findings.push(format!("Skipped, so not passed: {}, {reason}.", chunk.family));
         }
     }
-    text
+    findings
 }
 
 fn total(chunks: &[Chunk]) -> Tally {
@@ -97,7 +96,7 @@ fn percent(part: u64, whole: u64) -> String {
 }
 
 fn expected(chunks: &[Chunk], expect: &Expectations) -> String {
-    let findings = findings(expect, chunks);
+    let findings = expect_battery::findings(expect, chunks);
     if findings.is_empty() {
         return String::new();
     }
@@ -310,7 +309,7 @@ mod tests {
         let page = page(&chunks, &Plan::read(&file).expect("a plan"), "robustness");
         for told in [
             "**Question.** What breaks?",
-            "* **20 cases** of 2 families by 2 methods: 16 certified, 4 declined (20.00 %), 0 stopped",
+            "* Of 20 hard cases, 16 ended certified, 4 declined and 0 stopped by a budget; none panicked, hung or was invalid.",
             "| other declines at most 20 % of valid domains | 1 of 4 (25.00 %) | **no** |",
             "`cargo run --release -- sweep experiments/robustness.toml`",
             "| fan | 16 | 13 | 3 | 0 | 0 | 0 | 0 | 0 | 4 |",

@@ -9,74 +9,76 @@ use crate::suite::rows::numbers::first_seen;
 use crate::suite::rows::record::{Report, Row};
 use crate::theory::Claim;
 
-/// What the unstated hypothesis of Theorem 6.8 does, over meshes without angles under 90°, capped by lfs, t ≤ 1/3.
+/// What the unstated hypothesis of Theorem 6.8 does, over meshes of ours without angles under 90°, capped by lfs, with t ≤ 1/3
+/// and c_b ≤ 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct LowOverlaps {
-    /// Meshes with c_b + t ≤ 1, where circles of neighbouring input vertices cannot overlap.
-    apart: usize,
-    /// Of these, how many break the bound.
-    apart_broken: usize,
-    /// Meshes in which such circles meet low.
-    low: usize,
-    /// Of these, how many break the bound.
-    low_broken: usize,
-    /// The remaining meshes that break the bound.
-    unexplained: usize,
-    /// Smallest angle less its bound where circles meet low, at its worst, in degrees.
+struct Hypothesis {
+    /// Meshes with c_b + t ≤ 1, where circles of neighbouring input vertices cannot overlap, and how many break the bound.
+    kept: [usize; 2],
+    /// The others, and how many break the bound.
+    broken: [usize; 2],
+    /// Those of the others in which such circles meet low, and how many break the bound.
+    low: [usize; 2],
+    /// Smallest angle less its bound at its worst, in degrees.
     worst_margin: f64,
 }
 
-/// Counts them.
-fn low_overlaps(results: &Results) -> LowOverlaps {
-    let mut found = LowOverlaps::default();
-    for report in results
-        .rows
-        .iter()
-        .filter(|row| results.is_ours(row))
-        .filter_map(measured)
-    {
-        if setting(report) == Setting::Acute || !report.lfs_cap || report.t_effective > 1.0 / 3.0 {
-            continue;
-        }
-        let Some(check) = report.certificate.check(Claim::MinAngle) else {
-            continue;
-        };
-        let is_broken = usize::from(!check.holds);
-        if setting(report) == Setting::LowOverlap {
-            found.low += 1;
-            found.low_broken += is_broken;
+impl Hypothesis {
+    fn of(results: &Results) -> Self {
+        let mut found = Self::default();
+        let ours = results.rows.iter().filter(|row| results.is_ours(row));
+        for report in ours.filter_map(measured) {
+            let is_meant = report.lfs_cap && report.t_effective <= 1.0 / 3.0 && report.c_b <= 1.0;
+            let Some(check) = report.certificate.check(Claim::MinAngle) else {
+                continue;
+            };
+            let setting = setting(report);
+            if setting == Setting::Acute || !is_meant {
+                continue;
+            }
+            let note = |[meshes, broken]: &mut [usize; 2]| {
+                *meshes += 1;
+                *broken += usize::from(!check.holds);
+            };
+            if report.c_b + report.t_effective <= 1.0 {
+                note(&mut found.kept);
+            } else {
+                note(&mut found.broken);
+                if setting == Setting::LowOverlap {
+                    note(&mut found.low);
+                }
+            }
             found.worst_margin = found.worst_margin.min(margin_of(report).unwrap_or(0.0));
-        } else {
-            found.unexplained += is_broken;
         }
-        if report.c_b + report.t_effective <= 1.0 {
-            found.apart += 1;
-            found.apart_broken += is_broken;
-        }
+        found
     }
-    found
-}
 
-/// What the sweep shows of a hypothesis that the paper uses without saying so.
-fn hypothesis_finding(results: &Results) -> Option<String> {
-    let found = low_overlaps(results);
-    (found.low_broken > 0).then(|| {
+    /// In a sentence, where the bound broke.
+    fn finding(self) -> Option<String> {
+        let ([kept, kept_broken], [meshes, broken]) = (self.kept, self.broken);
+        (broken > 0).then(|| {
+            format!(
+                "Theorem 6.8 also needs c_b + t ≤ 1: without it {broken} of {meshes} meshes broke the bound, with it {kept_broken} of {kept}."
+            )
+        })
+    }
+
+    /// At length, where the bound broke.
+    fn text(self) -> String {
+        let [low, low_broken] = self.low;
+        let Some(finding) = self.finding() else {
+            return String::new();
+        };
         format!(
-            "**A hypothesis the paper does not state.** Theorem 6.8 rests on Lemma 6.4, which bounds how high the circles \
-             of neighbouring boundary vertices meet only where edge protection put one of the two. Where the circles of a \
-             segment's two input vertices already cover it between them, nothing bounds it, and the front vertex above \
-             them makes a flat triangle. Without angles under 90° and with t ≤ 1/3 that broke the bound in {} of the {} \
-             meshes where such circles meet lower than (9), by up to {}, and nothing else broke it ({} other meshes). With \
-             c_b + t ≤ 1 it cannot happen, since f ≤ lfs is at most half a segment's length in its middle: {} of {} such \
-             meshes broke the bound. So Theorem 6.8 needs c_b + t ≤ 1.",
-            found.low_broken,
-            found.low,
-            degrees(-found.worst_margin),
-            found.unexplained,
-            found.apart_broken,
-            found.apart
+            "### A hypothesis the paper does not state\n\n{finding}\n\nTheorem 6.8 rests on Lemma 6.4. That lemma bounds how high the \
+             circles of neighbouring boundary vertices meet, but only where edge protection put one of the two. If the circles of \
+             a segment's two input vertices already cover it between them, nothing bounds that height, and the front vertex above \
+             them makes a flat triangle. With c_b + t ≤ 1 they cannot, since f ≤ lfs is at most half a segment's length in \
+             its middle. Of {low} meshes where such circles meet lower than (9), {low_broken} broke the bound, at worst by {}. Counted \
+             are meshes without angles under 90° between segments, capped by lfs, with t ≤ 1/3 and c_b ≤ 1.\n\n",
+            degrees(-self.worst_margin)
         )
-    })
+    }
 }
 
 /// How often one claim of the certificate held.
@@ -121,25 +123,19 @@ pub(super) fn claim_tallies(rows: &[Row]) -> Vec<ClaimTally> {
     tallies
 }
 
-/// How many certificates hold.
+/// How many certificates hold, and what the paper does not state.
 pub(super) fn findings(results: &Results) -> Vec<String> {
-    hypothesis_finding(results)
-        .into_iter()
-        .chain(finding(results))
-        .collect()
-}
-
-fn finding(results: &Results) -> Option<String> {
     let reports: Vec<&Report> = results.rows.iter().filter_map(measured).collect();
-    let holding = reports.iter().filter(|report| report.certificate.holds).count();
-    let forced = reports.iter().filter(|report| report.forced_pieces > 0).count();
-    (!reports.is_empty()).then(|| {
+    let count = |wanted: fn(&Report) -> bool| reports.iter().filter(|report| wanted(report)).count();
+    let whole = (!reports.is_empty()).then(|| {
         format!(
-            "**Certificate.** Every guaranteed check holds in {holding} of {} meshes. Boundary pieces that are no \
-             Delaunay edges had to be forced in {forced}.",
-            reports.len()
+            "Every guaranteed check holds in {} of {} meshes; boundary pieces that are no Delaunay edges had to be forced in {}.",
+            count(|report| report.certificate.holds),
+            reports.len(),
+            count(|report| report.forced_pieces > 0)
         )
-    })
+    });
+    Hypothesis::of(results).finding().into_iter().chain(whole).collect()
 }
 
 /// How often each claim held, and every cell in which one did not.
@@ -180,10 +176,9 @@ pub(super) fn text(results: &Results) -> String {
         cells
     };
     let lines: Vec<_> = claims.into_iter().map(line).collect();
-    let mut text =
-        "## Certificate\n\nIn how many meshes each claim held: where it is guaranteed (its hypotheses hold), and \
+    let mut text = "In how many meshes each claim held: where it is guaranteed (its hypotheses hold), and \
          where it is only measured.\n\n"
-            .to_string();
+        .to_string();
     text += &table(&head.iter().map(String::as_str).collect::<Vec<_>>(), &lines);
     for (applies, title) in [
         (true, "Guaranteed checks that failed"),
@@ -215,7 +210,7 @@ pub(super) fn text(results: &Results) -> String {
             text += &format!("and {} more in `rows.jsonl`.\n\n", lines.len() - MOST_LINES);
         }
     }
-    text
+    text + &Hypothesis::of(results).text()
 }
 
 /// Checks that did not hold, as lines of a table: the guaranteed ones of all methods, or those only measured, of the

@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
 use crate::suite::charts::{ChartError, side_by_side, window};
-use crate::suite::rows::numbers::{first_seen, quantile};
+use crate::suite::rows::numbers::{first_seen, spread};
 use crate::suite::rows::record::{Report, Row};
 use crate::suite::run::plan::Section;
 use crate::theory::Claim;
@@ -103,32 +103,29 @@ pub(super) fn text(results: &Results) -> String {
         + &table(&head, &lines)
 }
 
-/// The section in a line.
+/// What cutting corners off gains, and what it costs.
 pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
-}
-
-fn finding(results: &Results) -> Option<String> {
     let pairs = pairs(results);
-    let spread = |of: &dyn Fn(&Pair) -> f64| {
-        let values: Vec<f64> = pairs.iter().map(of).collect();
-        Some((quantile(values.clone(), 0.0)?, quantile(values, 0.5)?))
+    let of = |value: &dyn Fn(&Pair) -> f64| spread(pairs.iter().map(value).collect());
+    let finding = || {
+        let [bitten, cut] = [of(&|pair| free(pair.reports[0]))?, of(&|pair| free(pair.reports[1]))?];
+        Some(format!(
+            "Beyond input angles under 60°, cutting corners off lifts the smallest angle from {} to {}, in the median from {} to {}.",
+            degrees(bitten.least),
+            degrees(cut.least),
+            degrees(bitten.median),
+            degrees(cut.median)
+        ))
     };
-    let (bitten, cut) = (
-        spread(&|pair| free(pair.reports[0]))?,
-        spread(&|pair| free(pair.reports[1]))?,
-    );
-    let (_, more) = spread(&triangles)?;
-    Some(format!(
-        "**Corners.** Beyond input angles under 60°, the smallest angle of {} meshes is {} (median {}) where corners are bitten \
-         like any other, and {} (median {}) where they are cut off, with {} times the triangles (median).",
-        pairs.len(),
-        degrees(bitten.0),
-        degrees(bitten.1),
-        degrees(cut.0),
-        degrees(cut.1),
-        number(more)
-    ))
+    let cost = of(&triangles).map(|times| {
+        format!(
+            "Cutting corners off makes {} times as many triangles in the median over {} pairs of meshes, at most {} times.",
+            number(times.median),
+            times.count,
+            number(times.most)
+        )
+    });
+    finding().into_iter().chain(cost).collect()
 }
 
 /// How much of a mesh the close look shows: so many times the longest edge of its worst triangle.

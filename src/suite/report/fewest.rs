@@ -18,25 +18,23 @@ fn pairs(results: &Results) -> [Vec<Pair>; 2] {
     }
 }
 
-/// The pairs with the fewest triangles for some angles.
-pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
-}
+/// Angles that findings name, degrees.
+const TOLD_DEG: [f64; 2] = [20.0, 28.0];
 
-fn finding(results: &Results) -> Option<String> {
+/// A sentence for each of some angles: the pair with the fewest triangles.
+pub(super) fn findings(results: &Results) -> Vec<String> {
     let [plain, _] = pairs(results);
-    let told = [15.0, 20.0, 25.0, 28.0].into_iter().filter_map(|angle| {
+    let domains = plain.iter().map(|pair| pair.domains).max().unwrap_or(0);
+    let of = |angle: f64| {
         let pair = fewest(&plain, angle)?;
         let (t, c_b) = (parameter(pair.t), parameter(pair.c_b));
-        let size = number(pair.size_ratio_lfs);
-        Some(format!("{angle}° by t = {t}, c_b = {c_b} ({size} per ∫dA/lfs²)"))
-    });
-    let told: Vec<String> = told.collect();
-    let domains = plain.iter().map(|pair| pair.domains).max()?;
-    (!told.is_empty()).then(|| {
-        let told = told.join(", ");
-        format!("**Fewest triangles for a smallest angle**, on {domains} domains without angles under 90°: {told}.")
-    })
+        Some(format!(
+            "For a smallest angle of {angle}° t = {t} and c_b = {c_b} have the fewest triangles, {} per ∫dA/lfs², on {domains} domains \
+             without angles under 90°.",
+            number(pair.size_ratio_lfs)
+        ))
+    };
+    TOLD_DEG.into_iter().filter_map(of).collect()
 }
 
 /// The pair with the fewest triangles for each of some angles, without acute domains and with them.
@@ -94,5 +92,5 @@ pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), Chart
     }
     let caption = "Triangles against smallest angle for each t and c_b, on domains without angles under 90° between segments; \
                    no pair beats the filled ones in both.";
-    charts::size_for_angle(&plain, &drawer.chart("size-for-angle", caption))
+    charts::fewest(&plain, &drawer.chart("size-for-angle", caption))
 }

@@ -60,6 +60,7 @@ pub(super) fn text(results: &Results) -> String {
          how many times Triangle's. Triangles at input angles under 60° are left out of the angle. Over all domains a setting counts \
          that was measured on each: its angle is the smallest of them, its size the median.\n\n",
     );
+    text += &constants(results);
     for angle in ANGLES_DEG {
         let cell = |families: &[Family], mesher: &&str| match fewest(families, mesher, angle) {
             None => "–".to_owned(),
@@ -154,52 +155,64 @@ fn by_factor(results: &Results) -> Vec<Setting> {
     settings
 }
 
-/// Where biting's constant is, and how far from Triangle's, in a line.
-pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
+/// How many times the triangles of the measure ours has at an angle: a factor for each domain where both reach it, the least first.
+fn over_measure(results: &Results, angle: f64) -> Vec<(f64, String)> {
+    let of = |(domain, families): (String, Vec<Family>)| {
+        let own = fewest(&families, &results.about, angle)?.2;
+        Some((own / fewest(&families, MEASURE, angle)?.2, domain))
+    };
+    let domains = by_domain(results).into_iter().filter(|(domain, _)| domain != ALL);
+    let mut factors: Vec<(f64, String)> = domains.filter_map(of).collect();
+    factors.sort_by(|a, b| a.0.total_cmp(&b.0));
+    factors
 }
 
-fn finding(results: &Results) -> Option<String> {
-    let domains: Vec<_> = by_domain(results)
-        .into_iter()
-        .filter(|(domain, _)| domain != ALL)
-        .collect();
-    let told = [15.0, 20.0, 25.0, 28.0, 30.0].into_iter().filter_map(|angle| {
-        let mut factors: Vec<(f64, &str)> = domains
-            .iter()
-            .filter_map(|(domain, families)| {
-                let own = fewest(families, &results.about, angle)?.2;
-                Some((own / fewest(families, MEASURE, angle)?.2, domain.as_str()))
-            })
-            .collect();
-        factors.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (least, most) = (factors.first()?, factors.last()?);
+/// The angle that the first finding names, degrees.
+const TOLD_DEG: f64 = 20.0;
+
+/// How far ours is from the measure, and which setting comes nearest.
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    let middle = |factors: Vec<f64>| median(factors).map(number);
+    let factors = over_measure(results, TOLD_DEG);
+    let count = factors.len();
+    let constant = middle(factors.into_iter().map(|(factor, _)| factor).collect()).map(|times| {
+        format!(
+            "For a smallest angle of {TOLD_DEG}°, {} needs {times} times as many triangles as Triangle does, in the median over {count} domains.",
+            results.about
+        )
+    });
+    let nearest = by_factor(results).into_iter().next().and_then(|setting| {
+        let times = middle(setting.factors)?;
         Some(format!(
-            "at {angle}° {} times in the median over {} domains, from {} ({}) to {} ({})",
-            number(median(factors.iter().map(|factor| factor.0).collect())),
-            factors.len(),
-            number(least.0),
-            least.1,
-            number(most.0),
-            most.1
+            "The setting that comes nearest to Triangle on all domains is {}, with {times} times its triangles.",
+            setting.name
         ))
     });
-    let told: Vec<String> = told.collect();
-    let nearest = by_factor(results).into_iter().next().map(|setting| {
-        let middle = number(median(setting.factors.clone()));
-        format!(
-            " The setting that comes nearest on all of them is {} ({middle} times).",
-            setting.name
-        )
-    });
-    (!told.is_empty()).then(|| {
-        format!(
-            "**The constant of {} beside Triangle's**, the fewest triangles of each for a smallest angle: {}.{}",
-            results.about,
-            told.join("; "),
-            nearest.unwrap_or_default()
-        )
-    })
+    constant.into_iter().chain(nearest).collect()
+}
+
+/// The factor at each angle, over the domains.
+fn constants(results: &Results) -> String {
+    let line = |angle: f64| {
+        let factors = over_measure(results, angle);
+        let end = |factor: Option<&(f64, String)>| {
+            factor.map_or("–".into(), |(factor, domain)| {
+                format!("{} ({domain})", number(*factor))
+            })
+        };
+        vec![
+            format!("{angle}°"),
+            factors.len().to_string(),
+            number(median(factors.iter().map(|(factor, _)| *factor).collect())),
+            end(factors.first()),
+            end(factors.last()),
+        ]
+    };
+    let head = ["smallest angle", "domains", "times Triangle's, median", "least", "most"];
+    format!(
+        "The fewest triangles of {} over the fewest of Triangle:\n\n",
+        results.about
+    ) + &table(&head, &ANGLES_DEG.map(line))
 }
 
 /// What a smallest angle costs, over all domains and on each.
@@ -210,7 +223,7 @@ pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), Chart
             ALL => "Smallest of the angles and median of the sizes over all domains.".to_owned(),
             _ => format!("Size against smallest angle on {domain}."),
         };
-        charts::frontiers(domain, families, &drawer.chart(&name, &caption))?;
+        charts::frontier(domain, families, &drawer.chart(&name, &caption))?;
     }
     Ok(())
 }

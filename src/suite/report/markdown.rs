@@ -1,6 +1,8 @@
 //! Tables and numbers as Markdown.
 
+use crate::suite::analysis::measures::Measure;
 use crate::suite::analysis::summary::rounded;
+use crate::suite::rows::numbers::Spread;
 
 /// `value` with three digits that count, `–` where there is none.
 pub(crate) fn number(value: impl Into<Option<f64>>) -> String {
@@ -22,6 +24,38 @@ pub(super) fn degrees(value: impl Into<Option<f64>>) -> String {
     match value.into() {
         Some(value) if value.is_finite() => format!("{value:.2}°"),
         _ => "–".into(),
+    }
+}
+
+/// A value of a measure, without its unit.
+pub(super) fn value(measure: &Measure, value: impl Into<Option<f64>>) -> String {
+    match (measure.decimals, value.into().filter(|value| value.is_finite())) {
+        (Some(decimals), Some(value)) => format!("{value:.decimals$}"),
+        (_, value) => number(value),
+    }
+}
+
+/// A value of a measure with its unit.
+pub(super) fn told(measure: &Measure, value: impl Into<Option<f64>>) -> String {
+    let blank = if matches!(measure.unit, "" | "°") { "" } else { " " };
+    format!("{}{blank}{}", self::value(measure, value), measure.unit)
+}
+
+/// From the least to the most of some numbers.
+pub(super) fn range(spread: &Spread) -> String {
+    let [least, most] = [spread.least, spread.most].map(number);
+    if least == most {
+        least
+    } else {
+        format!("{least} to {most}")
+    }
+}
+
+/// A number with its sign.
+pub(super) fn signed(value: impl Into<Option<f64>>) -> String {
+    match value.into() {
+        Some(value) if value > 0.0 => format!("+{}", number(value)),
+        other => number(other),
     }
 }
 

@@ -1,16 +1,18 @@
 //! Meshers side by side: at equal edge length, at equal triangle count, and in time.
 
 use super::drawer::Drawer;
-use super::markdown::{degrees, number, parameter, table};
+use super::markdown::{number, parameter, table, told, value};
 use super::meshes::side_by_side;
-use crate::quality::Percentiles;
-use crate::suite::analysis::contest::{Asked, Contest, seconds_per_triangle};
+use crate::suite::analysis::contest::{Asked, Contest};
+use crate::suite::analysis::measures::{
+    BETA, EDGES, MEAN_ANGLE, MIN_ANGLE, Measure, P05_ANGLE, SIZE_EFFICIENCY, TIME, TRIANGLES, UNDER_20, UNDER_30,
+};
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::series::TimeSeries;
 use crate::suite::analysis::summary::measured;
 use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::numbers::{distinct, first_seen, quantile};
-use crate::suite::rows::record::{Outcome, Report};
+use crate::suite::rows::record::Outcome;
 use crate::suite::run::plan::Section;
 use crate::suite::run::tune::{NEAR, is_near};
 
@@ -116,74 +118,47 @@ fn misses(contest: &Contest) -> String {
     }
 }
 
-/// The columns of [`method_table`].
-const METHOD_HEAD: [&str; 17] = [
-    "mesher",
-    "measured",
-    "skipped",
-    "declined",
-    "failed",
-    "triangles",
-    "size efficiency",
-    "smallest angle",
-    "least of all",
-    "mean",
-    "5th percentile",
-    "under 20°",
-    "under 30°",
-    "β",
-    "edge/s 5, 50, 95 %",
-    "µs per triangle",
-    "growth",
+/// The columns of [`method_table`] that are medians.
+const MEDIANS_OF: [Measure; 12] = [
+    TRIANGLES,
+    SIZE_EFFICIENCY,
+    MIN_ANGLE,
+    MEAN_ANGLE,
+    P05_ANGLE,
+    UNDER_20,
+    UNDER_30,
+    BETA,
+    EDGES[0],
+    EDGES[1],
+    EDGES[2],
+    TIME,
 ];
 
 /// A line for each method.
 fn method_table(contest: &Contest, time: &Contest) -> String {
     let common = contest.common(&contest.all());
     let line = |k: usize| {
-        let of = |value: fn(&Report) -> Option<f64>| contest.median(k, &common, value);
         let asked = contest.rows(k).count();
         let count = |outcome| match contest.count(k, outcome) {
             0 => "0".to_string(),
             some => format!("{some} of {asked}"),
         };
-        let percent = |degrees: usize| {
-            let share = contest.median(k, &common, |report| {
-                Some(100.0 * report.statistics.share_under(degrees))
-            });
-            share.map_or("–".into(), |share| format!("{} %", number(share)))
-        };
-        let edge = |value: fn(&Percentiles) -> f64| {
-            contest.median(k, &common, |report| {
-                report.statistics.edge_over_size.as_ref().map(value)
-            })
-        };
-        let edges = [edge(|p| p.p05), edge(|p| p.p50), edge(|p| p.p95)]
-            .map(number)
-            .join(", ");
-        let smallest = contest.values(k, &common, |report| report.statistics.min_angle_free_deg);
+        let median = |by: &Measure| value(by, contest.median(k, &common, by.value));
         let label = &contest.methods[k].label;
         let timed = time.methods.iter().position(|method| method.label == *label);
         let growth = timed.and_then(|k| Some(TimeSeries::of_method(time, k).fit()?.slope));
         let mut cells = vec![label.clone()];
         cells.extend([Outcome::Measured, Outcome::Skipped, Outcome::Declined, Outcome::Failed].map(count));
-        cells.extend([
-            number(of(|report| Some(report.statistics.triangles as f64))),
-            number(of(|report| Some(report.size_efficiency))),
-            degrees(of(|report| report.statistics.min_angle_free_deg)),
-            degrees(quantile(smallest, 0.0)),
-            degrees(of(|report| Some(report.statistics.mean_min_angle_deg))),
-            degrees(of(|report| Some(report.statistics.p05_min_angle_deg))),
-            percent(20),
-            percent(30),
-            number(of(|report| report.statistics.beta)),
-            edges,
-            number(of(|report| seconds_per_triangle(report).map(|seconds| 1e6 * seconds))),
-            number(growth),
-        ]);
+        cells.extend(MEDIANS_OF.iter().map(median));
+        let least = quantile(contest.values(k, &common, MIN_ANGLE.value), 0.0);
+        cells.extend([value(&MIN_ANGLE, least), number(growth)]);
         cells
     };
     let lines: Vec<_> = contest.all().into_iter().map(line).collect();
+    let labels = MEDIANS_OF.map(|measure| measure.label());
+    let mut head = vec!["mesher", "measured", "skipped", "declined", "failed"];
+    head.extend(labels.iter().map(String::as_str));
+    head.extend(["smallest angle of all (°)", "growth of time"]);
     let alone = contest
         .all()
         .into_iter()
@@ -199,7 +174,7 @@ fn method_table(contest: &Contest, time: &Contest) -> String {
          slope of log seconds against log triangles, from cells timed alone.{caution}\n\n",
         common.len(),
         contest.tasks.len()
-    ) + &table(&METHOD_HEAD, &lines)
+    ) + &table(&head, &lines)
 }
 
 /// Smallest and mean angle and size efficiency for each t and c_b, where there are several.
@@ -216,10 +191,8 @@ fn by_t_and_c_b(contest: &Contest) -> String {
         let here = contest.only(|asked| asked.t == t && asked.c_b == c_b);
         let common = here.common(&leads);
         let three = |k: &usize| {
-            let smallest = here.median(*k, &common, |report| report.statistics.min_angle_free_deg);
-            let mean = here.median(*k, &common, |report| Some(report.statistics.mean_min_angle_deg));
-            let efficiency = here.median(*k, &common, |report| Some(report.size_efficiency));
-            format!("{} · {} · {}", degrees(smallest), degrees(mean), number(efficiency))
+            let told = |by: Measure| told(&by, here.median(*k, &common, by.value));
+            [MIN_ANGLE, MEAN_ANGLE, SIZE_EFFICIENCY].map(told).join(" · ")
         };
         let count = format!("{} of {}", common.len(), here.tasks.len());
         let own = leads.iter().map(three);

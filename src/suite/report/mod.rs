@@ -36,7 +36,7 @@ mod fixture;
 #[cfg(test)]
 mod tests;
 
-pub use quote::quote_findings;
+pub use quote::quote;
 
 use crate::suite::analysis::results::{PLAN, Results, ResultsError};
 use crate::suite::charts::ChartError;
@@ -91,7 +91,7 @@ pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
         let plan = Plan::read(&folder.join(PLAN))?;
         battery::page(&read_rows(&folder.join(CHUNKS))?, &plan, &name)
     } else {
-        let results = Results::read(folder)?;
+        let results = read(folder)?;
         page::page(&results, &draw(&results, folder)?, &name)
     };
     let path = folder.join("README.md");
@@ -118,10 +118,19 @@ fn is_battery(folder: &Path) -> bool {
     !folder.join(ROWS).exists() && folder.join(CHUNKS).exists()
 }
 
-/// The main findings of a folder, as other pages quote them.
-fn findings_in_short(folder: &Path) -> Result<String, ReportError> {
+/// The findings that answer the question of an experiment, each a sentence of at most 25 words.
+///
+/// # Errors
+/// [`ReportError`]: results that cannot be read.
+pub fn headline(folder: &Path) -> Result<Vec<String>, ReportError> {
     if is_battery(folder) {
-        return Ok(battery::finding_lines(&read_rows(&folder.join(CHUNKS))?));
+        let findings = battery::findings(&read_rows(&folder.join(CHUNKS))?);
+        return Ok(findings.into_iter().take(1).collect());
     }
-    Ok(page::findings_in_short(&Results::read(folder)?))
+    Ok(page::headline(&read(folder)?))
+}
+
+/// The results in a folder.
+fn read(folder: &Path) -> Result<Results, ReportError> {
+    Ok(Results::read(folder)?)
 }

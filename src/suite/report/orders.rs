@@ -1,149 +1,89 @@
 //! Orders of bites side by side.
 
 use super::drawer::Drawer;
-use super::markdown::{degrees, number, table};
+use super::markdown::{number, table, told, value};
+use crate::suite::analysis::measures::{MEAN_ANGLE, MIN_ANGLE, Measure, SIZE_EFFICIENCY, TIME};
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::series::{OrderGroup, order_groups};
 use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::numbers::{first_seen, median};
-use crate::suite::rows::record::{Report, Row};
 use crate::suite::run::plan::Section;
 
-/// Medians of one order on one spacing.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct OrderFinding {
-    pub(super) order: String,
-    pub(super) spacing: String,
-    pub(super) asked: usize,
-    pub(super) measured: usize,
-    pub(super) smallest_deg: Option<f64>,
-    pub(super) mean_deg: Option<f64>,
-    pub(super) efficiency: Option<f64>,
-    pub(super) seconds_per_triangle: Option<f64>,
-    /// Domains on which its mean smallest angle is the largest of all orders.
-    pub(super) best_mean_on: Vec<String>,
-    /// Domains on which its smallest angle is the largest of all orders.
-    pub(super) best_smallest_on: Vec<String>,
+/// What orders are compared by.
+const MEASURES: [Measure; 4] = [MIN_ANGLE, MEAN_ANGLE, SIZE_EFFICIENCY, TIME];
+
+/// The median of a group by a measure.
+fn middle(group: &OrderGroup, by: &Measure) -> Option<f64> {
+    median(group.reports.iter().filter_map(|report| (by.value)(report)).collect())
 }
 
-/// Medians over domains for each spacing and order.
-pub(super) fn order_findings(rows: &[&Row]) -> Vec<OrderFinding> {
-    let groups = order_groups(rows);
-    let middle = |group: &OrderGroup, value: fn(&Report) -> Option<f64>| {
-        median(group.reports.iter().filter_map(|report| value(report)).collect())
-    };
-    let finding = |group: &OrderGroup| OrderFinding {
-        order: group.order.to_string(),
-        spacing: group.spacing.clone(),
-        asked: group.asked,
-        measured: group.reports.len(),
-        smallest_deg: middle(group, |report| report.statistics.min_angle_free_deg),
-        mean_deg: middle(group, |report| Some(report.statistics.mean_min_angle_deg)),
-        efficiency: middle(group, |report| Some(report.size_efficiency)),
-        seconds_per_triangle: middle(group, |report| {
-            Some(report.seconds.total / report.statistics.triangles as f64).filter(|seconds| seconds.is_finite())
-        }),
-        best_mean_on: best_on(&groups, group, |report| Some(report.statistics.mean_min_angle_deg)),
-        best_smallest_on: best_on(&groups, group, |report| report.statistics.min_angle_free_deg),
-    };
-    groups.iter().map(finding).collect()
-}
-
-/// The domains on which no order of the same spacing has a larger median `value` than `group`.
-fn best_on(groups: &[OrderGroup], group: &OrderGroup, value: fn(&Report) -> Option<f64>) -> Vec<String> {
+/// The domains on which no order of the same spacing has a better median than `group`.
+pub(super) fn best_on<'a>(groups: &[OrderGroup<'a>], group: &OrderGroup<'a>, by: &Measure) -> Vec<&'a str> {
     let of = |group: &OrderGroup, domain: &str| {
         let own = group.reports.iter().filter(|report| report.domain == domain);
-        median(own.filter_map(|report| value(report)).collect())
+        median(own.filter_map(|report| (by.value)(report)).collect())
     };
-    let rivals = || groups.iter().filter(|other| other.spacing == group.spacing);
+    let alike = || groups.iter().filter(|other| other.spacing == group.spacing);
     let wins = |domain: &&str| {
-        let best = rivals()
-            .filter_map(|other| of(other, domain))
-            .fold(f64::NEG_INFINITY, f64::max);
-        of(group, domain).is_some_and(|own| own >= best)
-    };
-    let domains = first_seen(group.reports.iter().map(|report| report.domain.as_str()));
-    domains.into_iter().filter(wins).map(str::to_string).collect()
-}
-
-/// The order with the largest median of the mean smallest angle on each spacing, and what it costs.
-pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
-}
-
-fn finding(results: &Results) -> Option<String> {
-    let findings = order_findings(&results.ours(Section::Orders));
-    let spacings = first_seen(findings.iter().map(|finding| finding.spacing.as_str()));
-    let told: Vec<String> = spacings
-        .into_iter()
-        .filter_map(|spacing| best_order(&findings, spacing))
-        .collect();
-    (!told.is_empty()).then(|| format!("**Best order of bites**, by medians over domains: {}.", told.join("; ")))
-}
-
-fn best_order(findings: &[OrderFinding], spacing: &str) -> Option<String> {
-    let own = || findings.iter().filter(|finding| finding.spacing == spacing);
-    let top = |value: fn(&OrderFinding) -> Option<f64>| {
-        own().filter(|finding| value(finding).is_some()).max_by(|a, b| {
-            value(a)
-                .unwrap_or(f64::NEG_INFINITY)
-                .total_cmp(&value(b).unwrap_or(f64::NEG_INFINITY))
+        of(group, domain).is_some_and(|own| {
+            let mut others = alike().filter_map(|other| of(other, domain));
+            others.all(|other| by.gain(own, other) >= 0.0)
         })
     };
-    let (mean, smallest) = (top(|finding| finding.mean_deg)?, top(|finding| finding.smallest_deg)?);
-    let fewest = top(|finding| finding.efficiency.map(|efficiency| -efficiency))?;
-    let fastest = own()
-        .filter_map(|finding| finding.seconds_per_triangle)
-        .fold(f64::INFINITY, f64::min);
-    let cost = |finding: &OrderFinding| number(finding.seconds_per_triangle.map(|seconds| seconds / fastest));
+    let domains = first_seen(group.reports.iter().map(|report| report.domain.as_str()));
+    domains.into_iter().filter(wins).collect()
+}
+
+/// For each spacing the order with the largest median of the mean smallest angle, and what it costs.
+pub(super) fn findings(results: &Results) -> Vec<String> {
+    let rows = results.ours(Section::Orders);
+    let groups = order_groups(&rows);
+    let spacings = first_seen(groups.iter().map(|group| group.spacing.as_str()));
+    spacings
+        .into_iter()
+        .filter_map(|spacing| best_order(&groups, spacing))
+        .collect()
+}
+
+fn best_order(groups: &[OrderGroup], spacing: &str) -> Option<String> {
+    let own = || groups.iter().filter(|group| group.spacing == spacing);
+    let with = |by: Measure| own().filter_map(move |group| Some((group, middle(group, &by)?)));
+    let (best, mean) = with(MEAN_ANGLE).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let fastest = with(TIME).map(|(_, time)| time).reduce(f64::min);
+    let cost = fastest.zip(middle(best, &TIME)).map(|(fastest, own)| {
+        let times = number(own / fastest);
+        format!(", at {times} times the time of the fastest order")
+    });
     Some(format!(
-        "with `{spacing}` `{}` has the largest mean smallest angle ({}, at {} times the time of the fastest order), `{}` \
-         the largest smallest angle ({}, at {} times), `{}` the fewest triangles (size efficiency {}, smallest angle {}, \
-         mean {})",
-        mean.order,
-        degrees(mean.mean_deg),
-        cost(mean),
-        smallest.order,
-        degrees(smallest.smallest_deg),
-        cost(smallest),
-        fewest.order,
-        number(fewest.efficiency),
-        degrees(fewest.smallest_deg),
-        degrees(fewest.mean_deg)
+        "With `{spacing}`, order `{}` has the largest mean smallest angle, {} in the median over domains{}.",
+        best.order,
+        told(&MEAN_ANGLE, mean),
+        cost.unwrap_or_default()
     ))
 }
 
 /// Medians of each order and spacing, and where the order is best.
 pub(super) fn text(results: &Results) -> String {
-    let findings = order_findings(&results.ours(Section::Orders));
-    if findings.is_empty() {
+    let rows = results.ours(Section::Orders);
+    let groups = order_groups(&rows);
+    if groups.is_empty() {
         return String::new();
     }
-    let head = [
-        "spacing",
-        "order",
-        "measured",
-        "smallest angle",
-        "mean smallest angle",
-        "size efficiency",
-        "µs per triangle",
-        "best mean on",
-        "best smallest on",
-    ];
-    let line = |finding: &OrderFinding| {
-        vec![
-            finding.spacing.clone(),
-            finding.order.clone(),
-            format!("{} of {}", finding.measured, finding.asked),
-            degrees(finding.smallest_deg),
-            degrees(finding.mean_deg),
-            number(finding.efficiency),
-            number(finding.seconds_per_triangle.map(|seconds| 1e6 * seconds)),
-            finding.best_mean_on.join(", "),
-            finding.best_smallest_on.join(", "),
-        ]
+    let labels = MEASURES.map(|measure| measure.label());
+    let mut head = vec!["spacing", "order", "measured"];
+    head.extend(labels.iter().map(String::as_str));
+    head.extend(["best mean on", "best smallest on"]);
+    let line = |group: &OrderGroup| {
+        let mut line = vec![
+            group.spacing.clone(),
+            group.order.to_owned(),
+            format!("{} of {}", group.reports.len(), group.asked),
+        ];
+        line.extend(MEASURES.iter().map(|by| value(by, middle(group, by))));
+        line.extend([MEAN_ANGLE, MIN_ANGLE].map(|by| best_on(&groups, group, &by).join(", ")));
+        line
     };
-    let alone = results.ours(Section::Orders).iter().all(|row| row.cell.timed);
+    let alone = rows.iter().all(|row| row.cell.timed);
     let caution = if alone {
         ""
     } else {
@@ -152,7 +92,7 @@ pub(super) fn text(results: &Results) -> String {
     format!(
         "Medians over domains, at one t and c_b; the last columns name the domains on which no other order does \
          better.{caution}\n\n"
-    ) + &table(&head, &findings.iter().map(line).collect::<Vec<_>>())
+    ) + &table(&head, &groups.iter().map(line).collect::<Vec<_>>())
 }
 
 /// Medians of each order, and how triangles spread over angles.
@@ -163,7 +103,7 @@ pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), Chart
         return Ok(());
     }
     let caption = "Orders of bites: median over domains, and the range from the least to the most.";
-    charts::orders(&groups, &drawer.chart("orders", caption))?;
+    charts::orders(&groups, &MEASURES, &drawer.chart("orders", caption))?;
     let caption = "How triangles spread over smallest angles, for each order of bites; mean over meshes.";
     charts::angles_by_order(&groups, &drawer.chart("angles-by-order", caption))
 }

@@ -1,10 +1,11 @@
 //! The paper's remark that independent sets of oversampled points cost more than biting, answered in numbers.
 
 use super::drawer::Drawer;
-use super::markdown::{number, percent, table};
+use super::markdown::{number, percent, range, table};
 use crate::suite::analysis::remarks::{Sampling, samplings};
 use crate::suite::analysis::results::Results;
 use crate::suite::charts::{self, ChartError};
+use crate::suite::rows::numbers::spread;
 use crate::suite::run::plan::Section;
 
 /// What each density of samples gave.
@@ -12,53 +13,24 @@ fn sampled(results: &Results) -> Vec<Sampling> {
     samplings(&results.at_equal_size(Section::Oversampling), &results.about)
 }
 
-/// Whether independent sets of oversampled points cost more than biting.
+/// Whether independent sets of oversampled points cost more.
 pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
-}
-
-fn finding(results: &Results) -> Option<String> {
-    let found = sampled(results);
-    let dearer = found
-        .iter()
-        .filter(|one| one.seconds.is_some_and(|ratio| ratio > 1.0))
-        .count();
+    let seconds: Vec<f64> = sampled(results).iter().filter_map(|one| one.seconds).collect();
+    let (dearer, of) = (seconds.iter().filter(|ratio| **ratio > 1.0).count(), seconds.len());
     let verdict = match dearer {
         0 => "does not hold",
-        some if some == found.len() => "holds",
+        some if some == of => "holds",
         _ => "holds in part",
     };
-    let told: Vec<String> = found
-        .iter()
-        .map(|one| {
-            let end = if one.is_complete {
-                "until no gap is left"
-            } else {
-                "once"
-            };
-            format!(
-                "{} points a side sampled {end} take {} times the seconds, leave {} of circles at a gap and β = {}",
-                number(one.points),
-                number(one.seconds),
-                percent(one.gap_share),
-                number(one.beta)
-            )
-        })
-        .collect();
-    let ends = [told.first()?, told.last()?];
-    let ends = if told.len() > 1 {
-        ends.to_vec()
-    } else {
-        ends[..1].to_vec()
-    };
-    Some(format!(
-        "**The paper's remark that independent sets of oversampled points cost more {verdict}**: {} of {} densities take longer \
-         than {} on the same tasks; {}.",
-        dearer,
-        found.len(),
-        results.about,
-        ends.into_iter().cloned().collect::<Vec<_>>().join("; ")
-    ))
+    let finding = spread(seconds).map(|times| {
+        format!(
+            "The paper's remark that oversampling costs more {verdict}: {dearer} of {of} densities take longer than {}, {} times the \
+             seconds.",
+            results.about,
+            range(&times)
+        )
+    });
+    finding.into_iter().collect()
 }
 
 /// A line for each density.

@@ -1,10 +1,8 @@
 //! `README.md` of a results folder: what was run, what came out, the charts.
 
-use super::certificate;
 use super::drawer::Chart;
 use super::markdown::{number, parameter, plain, table};
 use super::sections::Entry;
-use super::standings::standings;
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{by_spacing, measured};
 use crate::suite::rows::numbers::{first_seen, quantile, spread};
@@ -13,10 +11,10 @@ use crate::suite::run::plan::Section;
 
 /// The whole page of an experiment: `charts` has what was drawn for each of its sections.
 pub(super) fn page(results: &Results, charts: &[(Section, Vec<Chart>)], name: &str) -> String {
-    let mut text = format!("# Results of `{name}`\n\n");
-    text += "This page and its charts are made from `rows.jsonl` alone, by `biting report`; nothing here is typed.\n\n";
+    let mut text = format!("# Results of `{name}`\n\n{}", how_it_is_made(name, charts));
     text += &format!("**Question.** {}\n\n", results.question);
-    text += &format!("## Main findings\n\n{}\n", bullets(findings(results)));
+    text += &format!("**In short.** {}\n\n", headline(results).join(" "));
+    text += &format!("## Findings\n\n{}\n", bullets(findings(results)));
     text += &what_was_run(results, name);
     for (section, charts) in charts {
         let Entry { title, text: body, .. } = Entry::of(*section);
@@ -27,7 +25,21 @@ pub(super) fn page(results: &Results, charts: &[(Section, Vec<Chart>)], name: &s
         }
         text += &charts.iter().map(shown).collect::<String>();
     }
-    text + &certificate::text(results) + &unmeasured(&results.rows)
+    text + &unmeasured(&results.rows)
+}
+
+/// What makes the page, and from what.
+fn how_it_is_made(name: &str, charts: &[(Section, Vec<Chart>)]) -> String {
+    let has_pictures = charts
+        .iter()
+        .flat_map(|(_, charts)| charts)
+        .any(|chart| chart.is_picture);
+    let pictures = if has_pictures {
+        " For pictures of meshes it runs the meshers again, and shows a mesh if it has the fingerprint of its row."
+    } else {
+        ""
+    };
+    format!("Made by `biting report results/{name}` from the rows and the plan beside this page.{pictures}\n\n")
 }
 
 fn shown(chart: &Chart) -> String {
@@ -43,23 +55,23 @@ fn shown(chart: &Chart) -> String {
 }
 
 /// What was found, a sentence each.
-fn findings(results: &Results) -> Vec<String> {
+pub(super) fn findings(results: &Results) -> Vec<String> {
     let sections = results.sections.keys();
-    let of_sections = sections.flat_map(|section| (Entry::of(*section).findings)(results));
-    of_sections.chain(certificate::findings(results)).collect()
+    sections
+        .flat_map(|section| (Entry::of(*section).findings)(results))
+        .collect()
 }
 
-/// The findings as another page quotes them: methods are set side by side in a table, and orders left out.
-pub(super) fn findings_in_short(results: &Results) -> String {
-    let quoted = results
-        .sections
-        .keys()
-        .filter(|section| ![Section::Orders, Section::Duels].contains(section));
-    let lines = quoted.flat_map(|section| (Entry::of(*section).findings)(results));
-    bullets(lines.chain(certificate::findings(results))) + &standings(results)
+/// What answers the question: the first finding of each section that the plan names for it, or of the first that has any.
+pub(super) fn headline(results: &Results) -> Vec<String> {
+    let first = |section: &Section| (Entry::of(*section).findings)(results).into_iter().next();
+    match results.headline.is_empty() {
+        true => results.sections.keys().find_map(first).into_iter().collect(),
+        false => results.headline.iter().filter_map(first).collect(),
+    }
 }
 
-fn bullets(lines: impl IntoIterator<Item = String>) -> String {
+pub(super) fn bullets(lines: impl IntoIterator<Item = String>) -> String {
     lines.into_iter().map(|line| format!("* {line}\n")).collect()
 }
 

@@ -1,12 +1,12 @@
 //! The part of the page on what quality is for: errors, iterations and eigenvalues of a Poisson problem on each mesh.
 
 use super::drawer::Drawer;
-use super::markdown::{number, table};
+use super::markdown::{number, range, table, value};
 use crate::suite::analysis::contest::Contest;
+use crate::suite::analysis::measures::{Measure, YIELDS};
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
-use crate::suite::charts::{self, ChartError, YIELDS};
-use crate::suite::fem::Solution;
+use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::numbers::{first_seen, spread};
 use crate::suite::rows::record::Row;
 use crate::suite::run::plan::Section;
@@ -36,16 +36,13 @@ pub(super) fn by_problem(results: &Results) -> Vec<(String, Contest<'_>)> {
         .collect()
 }
 
-/// What one method gave, as medians over the tasks of a contest: one number for each of [`YIELDS`].
-fn yields(contest: &Contest, method: usize) -> [Option<f64>; YIELDS.len()] {
+/// The median of a method over all tasks of a contest.
+fn median_of(contest: &Contest, method: usize, by: &Measure) -> Option<f64> {
     let tasks: Vec<usize> = (0..contest.tasks.len()).collect();
-    YIELDS.each_ref().map(|wanted| {
-        let value = |solution: &Solution| (wanted.value)(solution);
-        contest.median(method, &tasks, |report| value(report.poisson.as_ref()?))
-    })
+    contest.median(method, &tasks, by.value)
 }
 
-/// The part of the page: a table for each problem.
+/// A table for each problem, and ours beside the best over all of them.
 pub(super) fn text(results: &Results) -> String {
     let all = by_problem(results);
     if all.is_empty() {
@@ -57,9 +54,9 @@ pub(super) fn text(results: &Results) -> String {
          conjugate gradients preconditioned by the diagonal, to a residual of 10⁻⁸. The condition is that of the preconditioned matrix, \
          at the largest count.\n\n",
     );
+    text += &beside_the_best(results);
     for (title, contest) in &all {
         let line = |method: usize| {
-            let [energy, l2, iterations, eigenvalue] = yields(contest, method).map(number);
             let last = contest.tasks.len().saturating_sub(1);
             let condition = contest
                 .report(method, last)
@@ -67,19 +64,13 @@ pub(super) fn text(results: &Results) -> String {
                 .map(|spectrum| spectrum.condition_preconditioned);
             let count = contest.rows(method).filter(|row| has_solution(row)).count();
             let of = contest.rows(method).count();
-            let label = contest.methods[method].label.clone();
-            vec![
-                label,
-                format!("{count} of {of}"),
-                energy,
-                l2,
-                iterations,
-                eigenvalue,
-                number(condition),
-            ]
+            let mut line = vec![contest.methods[method].label.clone(), format!("{count} of {of}")];
+            line.extend(YIELDS.iter().map(|by| value(by, median_of(contest, method, by))));
+            line.push(number(condition));
+            line
         };
         let mut head = vec!["mesher", "solved"];
-        head.extend(YIELDS.iter().map(|wanted| wanted.label));
+        head.extend(YIELDS.iter().map(|by| by.title));
         head.push("condition");
         let lines: Vec<_> = contest.all().into_iter().map(line).collect();
         let spacing = contest.tasks.first().map_or("", |asked| asked.spacing.as_str());
@@ -92,55 +83,50 @@ fn has_solution(row: &Row) -> bool {
     measured(row).is_some_and(|report| report.poisson.is_some())
 }
 
-/// How far ours is from the smallest error per unknown, with the least and the most over the problems.
+/// What findings call the first of [`YIELDS`].
+const NAMES: [&str; 3] = [
+    "energy error per unknown",
+    "L2 error per unknown",
+    "number of iterations",
+];
+
+/// How far ours is from the best method, from the least to the most over the problems; a sentence for each number.
 pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
-}
-
-fn finding(results: &Results) -> Option<String> {
-    let contests: Vec<Contest> = by_problem(results).into_iter().map(|(_, contest)| contest).collect();
-    let own = contests.first()?.lead_of(&results.about)?;
-    let label = &contests[0].methods[own].label;
-    let part = |which: usize| {
-        let shares: Vec<[f64; 3]> = contests
-            .iter()
-            .filter_map(|contest| over_the_best(contest, &results.about, which))
-            .collect();
-        let range = |k: usize| {
-            let over = spread(shares.iter().map(|share| share[k]).collect())?;
-            let [least, most] = [over.least, over.most].map(number);
-            Some(if least == most {
-                least
-            } else {
-                format!("{least} to {most}")
-            })
-        };
+    let over = NAMES.into_iter().zip(&YIELDS).filter_map(|(name, by)| {
+        let [ours, ..] = over_the_best(results, by)?;
         Some(format!(
-            "{} {} times the best method's, the median method's {}, the worst's {}",
-            YIELDS[which].label,
-            range(0)?,
-            range(1)?,
-            range(2)?
+            "In Poisson problems at equal triangle counts, {}'s {name} is {ours} times that of the best method.",
+            results.about
         ))
-    };
-    let parts: Vec<String> = [0, 1, 2].into_iter().filter_map(part).collect();
-    (!parts.is_empty()).then(|| {
-        format!(
-            "**Error per unknown** in Poisson problems, {label}: {}.",
-            parts.join("; ")
-        )
-    })
+    });
+    over.collect()
 }
 
-/// What ours, the median method and the worst give over what the best gives.
-fn over_the_best(contest: &Contest, about: &str, which: usize) -> Option<[f64; 3]> {
-    let own = yields(contest, contest.lead_of(about)?)[which]?;
-    let all = contest
-        .all()
-        .into_iter()
-        .filter_map(|method| yields(contest, method)[which]);
-    let all = spread(all.collect())?;
-    Some([own, all.median, all.most].map(|value| value / all.least))
+/// Ours, the median method and the worst over the best, by each of [`YIELDS`].
+fn beside_the_best(results: &Results) -> String {
+    let line = |by: &Measure| {
+        let over = over_the_best(results, by)?;
+        Some(std::iter::once(by.title.to_owned()).chain(over).collect::<Vec<_>>())
+    };
+    let lines: Vec<_> = YIELDS.iter().filter_map(line).collect();
+    let head = ["", results.about.as_str(), "the median method", "the worst"];
+    "Over the best method, from the least to the most over the problems:\n\n".to_owned() + &table(&head, &lines)
+}
+
+/// What ours, the median method and the worst have over the best, from the least to the most over the problems.
+fn over_the_best(results: &Results, by: &Measure) -> Option<[String; 3]> {
+    let of = |contest: &Contest| {
+        let own = median_of(contest, contest.lead_of(&results.about)?, by)?;
+        let all = contest.all().into_iter();
+        let all = spread(all.filter_map(|method| median_of(contest, method, by)).collect())?;
+        Some([own, all.median, all.most].map(|value| value / all.least))
+    };
+    let shares: Vec<[f64; 3]> = by_problem(results)
+        .iter()
+        .filter_map(|(_, contest)| of(contest))
+        .collect();
+    let over = |k: usize| spread(shares.iter().map(|share| share[k]).collect());
+    Some([range(&over(0)?), range(&over(1)?), range(&over(2)?)])
 }
 
 /// Errors, iterations and eigenvalues of each Poisson problem.

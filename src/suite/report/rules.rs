@@ -6,6 +6,7 @@
 
 use super::drawer::Drawer;
 use super::markdown::{degrees, number, parameter, table};
+use crate::suite::analysis::measures::{MIN_ANGLE, Measure, SIZE_RATIO_LFS, TRIANGLES};
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{measured, parameter as named};
 use crate::suite::charts::{self, ChartError};
@@ -23,19 +24,19 @@ struct Way {
 
 const WAYS: [Way; 3] = [
     Way {
-        title: "same t, same c_b",
-        t_times: 1.0,
-        c_b_times: 1.0,
-    },
-    Way {
-        title: "same guaranteed angle, same c_b (twice α)",
-        t_times: 2.0,
-        c_b_times: 1.0,
-    },
-    Way {
-        title: "same guaranteed angle, same α (twice c_b)",
+        title: "same guaranteed angle and α",
         t_times: 2.0,
         c_b_times: 2.0,
+    },
+    Way {
+        title: "same guaranteed angle and c_b",
+        t_times: 2.0,
+        c_b_times: 1.0,
+    },
+    Way {
+        title: "same t and c_b",
+        t_times: 1.0,
+        c_b_times: 1.0,
     },
 ];
 
@@ -62,30 +63,28 @@ impl<'a> Pairs<'a> {
         pairs
     }
 
-    /// Medians of a value, by the paper's rule and by the other.
-    fn medians(&self, value: impl Fn(&Report) -> Option<f64>) -> [Option<f64>; 2] {
-        [0, 1].map(|k| median(self.reports.iter().filter_map(|two| value(two[k])).collect()))
+    /// Medians of a measure, by the paper's rule and by the other.
+    fn medians(&self, by: &Measure) -> [Option<f64>; 2] {
+        [0, 1].map(|k| median(self.reports.iter().filter_map(|two| (by.value)(two[k])).collect()))
     }
 
     fn least_angle(&self, k: usize) -> Option<f64> {
-        let angles = self
-            .reports
-            .iter()
-            .filter_map(|two| two[k].statistics.min_angle_free_deg);
+        let angles = self.reports.iter().filter_map(|two| (MIN_ANGLE.value)(two[k]));
         angles.reduce(f64::min)
     }
 
     /// The median over pairs of the other's value over the paper's.
-    fn ratio(&self, value: impl Fn(&Report) -> f64) -> Option<f64> {
-        median(self.reports.iter().map(|two| value(two[1]) / value(two[0])).collect())
+    fn ratio(&self, value: impl Fn(&Report) -> Option<f64>) -> Option<f64> {
+        let ratio = |two: &[&Report; 2]| Some(value(two[1])? / value(two[0])?);
+        median(self.reports.iter().filter_map(ratio).collect())
     }
 
     fn triangles(&self) -> Option<f64> {
-        self.ratio(|report| report.statistics.triangles as f64)
+        self.ratio(TRIANGLES.value)
     }
 
     fn seconds(&self) -> Option<f64> {
-        self.ratio(|report| report.seconds.total)
+        self.ratio(|report| Some(report.seconds.total))
     }
 }
 
@@ -110,33 +109,21 @@ fn is_partner(row: &Row, other: &Row, way: &Way) -> bool {
         && near(its.c_b, way.c_b_times * own.c_b)
 }
 
-/// A line for each way, over all that were asked for in it.
+/// A sentence for each way: the median ratio of triangles over all pairs that were asked for in it.
 pub(super) fn findings(results: &Results) -> Vec<String> {
     let rows = results.of(Section::Rules);
-    let told = |way: &Way| {
+    let of = |way: &Way| {
         let pairs = Pairs::of(&rows, way, |_| true);
-        let angles = pairs.medians(|report| report.statistics.min_angle_free_deg);
-        let sizes = pairs.medians(|report| Some(report.size_ratio_lfs));
         Some(format!(
-            "**The rule of the later point against the paper's, {}**, on {} of {} pairs: {} times the triangles and {} times the \
-             seconds (medians of ratios), {} : {} triangles/∫dA/lfs², smallest angle {} : {} in the median, {} : {} at worst.",
+            "At the {}, the rule of the later point needs {} times the triangles of the paper's.",
             way.title,
-            pairs.reports.len(),
-            pairs.asked,
-            number(pairs.triangles()?),
-            number(pairs.seconds()?),
-            number(sizes[1]),
-            number(sizes[0]),
-            degrees(angles[1]),
-            degrees(angles[0]),
-            degrees(pairs.least_angle(1)),
-            degrees(pairs.least_angle(0))
+            number(pairs.triangles()?)
         ))
     };
-    WAYS.iter().filter_map(told).collect()
+    WAYS.iter().filter_map(of).collect()
 }
 
-/// A table for each way, with a line for each order, t and c_b by the paper's rule.
+/// All ways over all pairs; then a table for each way, with a line for each order, t and c_b by the paper's rule.
 pub(super) fn text(results: &Results) -> String {
     let rows = results.of(Section::Rules);
     let papers: Vec<&Row> = rows.iter().copied().filter(|row| !is_later(row)).collect();
@@ -145,7 +132,7 @@ pub(super) fn text(results: &Results) -> String {
         distinct(papers.iter().map(|row| row.cell.t)),
         distinct(papers.iter().map(|row| row.cell.c_b)),
     );
-    let mut text = String::new();
+    let (mut text, mut whole) = (String::new(), Vec::new());
     for way in &WAYS {
         let mut lines = Vec::new();
         for order in &orders {
@@ -158,22 +145,29 @@ pub(super) fn text(results: &Results) -> String {
             }
         }
         if !lines.is_empty() {
-            text += &format!("### {}\n\n{}", way.title, table(&HEAD, &lines));
+            let all = Pairs::of(&rows, way, |_| true);
+            whole.push([vec![way.title.to_owned()], numbers(&all)].concat());
+            text += &format!("### At the {}\n\n{}", way.title, table(&HEAD, &lines));
         }
     }
-    text
+    if whole.is_empty() {
+        return text;
+    }
+    let head = [&["at the"], &HEAD[3..4], &HEAD[6..]].concat();
+    "Over all orders, t and c_b; ratios are medians over the pairs.\n\n".to_owned() + &table(&head, &whole) + &text
 }
 
+/// The last columns are those of [`numbers`], but for the two bounds.
 const HEAD: [&str; 14] = [
     "order",
     "t",
     "c_b",
     "pairs measured",
     "bound, paper",
-    "smallest angle, median",
-    "worst",
     "bound, later",
-    "smallest angle, median",
+    "smallest angle, paper",
+    "worst",
+    "later",
     "worst",
     "triangles/∫dA/lfs², paper",
     "later",
@@ -182,27 +176,27 @@ const HEAD: [&str; 14] = [
 ];
 
 fn line(pairs: &Pairs, way: &Way, order: &str, t: f64, c_b: f64) -> Vec<String> {
-    let angles = pairs.medians(|report| report.statistics.min_angle_free_deg);
-    let sizes = pairs.medians(|report| Some(report.size_ratio_lfs));
     let both = |one: f64, times: f64| match times {
         1.0 => parameter(one),
         _ => format!("{} : {}", parameter(one), parameter(times * one)),
     };
+    let bound = |rule, t| degrees(Promises { rule, t }.min_angle_deg());
+    let mut line = vec![order.to_string(), both(t, way.t_times), both(c_b, way.c_b_times)];
+    let mut numbers = numbers(pairs).into_iter();
+    line.extend(numbers.next());
+    line.extend([bound(Rule::Earlier, t), bound(Rule::Later, way.t_times * t)]);
+    line.extend(numbers);
+    line
+}
+
+/// What some pairs say.
+fn numbers(pairs: &Pairs) -> Vec<String> {
+    let angles = pairs.medians(&MIN_ANGLE);
+    let sizes = pairs.medians(&SIZE_RATIO_LFS);
     vec![
-        order.to_string(),
-        both(t, way.t_times),
-        both(c_b, way.c_b_times),
         format!("{} of {}", pairs.reports.len(), pairs.asked),
-        degrees(Promises { rule: Rule::Earlier, t }.min_angle_deg()),
         degrees(angles[0]),
         degrees(pairs.least_angle(0)),
-        degrees(
-            Promises {
-                rule: Rule::Later,
-                t: way.t_times * t,
-            }
-            .min_angle_deg(),
-        ),
         degrees(angles[1]),
         degrees(pairs.least_angle(1)),
         number(sizes[0]),

@@ -20,32 +20,23 @@ fn is_lost(met: &Met) -> bool {
     2 * met.worse > met.meshes[0] && met.met.mean_deg < met.elsewhere.mean_deg
 }
 
-/// Whether advancing front loses quality where fronts meet, in a line for each of its methods that are at their defaults.
+/// Whether quality is lost where fronts meet, of the first method that marks such places by its defaults.
 pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
-}
-
-fn finding(results: &Results) -> Option<String> {
     let found = met(results);
-    let first = found.iter().find(|met| met.method.is_default).or(found.first())?;
-    let verdict = if is_lost(first) { "holds" } else { "does not hold" };
-    Some(format!(
-        "**The paper's remark that an advancing front loses quality where fronts meet {verdict}** for {}: triangles there \
-         ({} of all, in {} of {} meshes) have a mean smallest angle of {} against {} elsewhere, smaller in {} of {} meshes; \
-         5th percentile {} against {}, under 30° {} against {} (medians over meshes).",
-        first.method.label,
-        percent(first.share),
-        first.meshes[0],
-        first.meshes[1],
-        degrees(first.met.mean_deg),
-        degrees(first.elsewhere.mean_deg),
-        first.worse,
-        first.meshes[0],
-        degrees(first.met.p05_deg),
-        degrees(first.elsewhere.p05_deg),
-        percent(first.met.share_under_30),
-        percent(first.elsewhere.share_under_30)
-    ))
+    let first = found.iter().find(|met| met.method.is_default).or(found.first());
+    let finding = first.map(|met| {
+        let verdict = if is_lost(met) { "holds" } else { "does not hold" };
+        format!(
+            "The paper's remark that quality is lost where fronts meet {verdict} for {}: mean smallest angle {} there, {} elsewhere, \
+             smaller in {} of {} meshes.",
+            met.method.label,
+            degrees(met.met.mean_deg),
+            degrees(met.elsewhere.mean_deg),
+            met.worse,
+            met.meshes[0]
+        )
+    });
+    finding.into_iter().collect()
 }
 
 /// A line for each method that marks where fronts met.

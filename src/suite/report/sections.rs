@@ -2,8 +2,8 @@
 
 use super::drawer::Drawer;
 use super::{
-    adaptation, angle, corners, duels, fewest, frontier, meshes, methods, orders, oversampling, peers, poisson, rules,
-    seams, size, tasks, threads, time,
+    adaptation, angle, certificate, corners, duels, fewest, frontier, meshes, methods, orders, oversampling, peers,
+    poisson, rules, seams, size, tasks, threads, time,
 };
 use crate::suite::analysis::results::Results;
 use crate::suite::charts::ChartError;
@@ -81,6 +81,7 @@ impl Entry {
                 oversampling::text,
                 oversampling::charts,
             ),
+            Section::Certificate => Self::new("Certificate", certificate::findings, certificate::text, no_charts),
             Section::Meshes => Self::new("Meshes", no_findings, meshes::text, meshes::charts),
         }
     }

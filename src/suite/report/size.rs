@@ -2,56 +2,56 @@
 
 use super::drawer::Drawer;
 use super::markdown::{number, parameter, table};
+use crate::suite::analysis::measures::{Measure, SIZE_EFFICIENCY, SIZE_RATIO, SIZE_RATIO_LFS};
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{Grid, measured};
 use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::numbers::spread;
-use crate::suite::rows::record::Report;
 use crate::suite::run::plan::Section;
 
-/// Between what bounds the two ratios lie.
+/// Between what bounds the two ratios lie, for the first spacing.
 pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
-}
-
-fn finding(results: &Results) -> Option<String> {
-    let (title, grid) = results.grids(Section::Size).into_iter().next()?;
-    let of = |value: fn(&Report) -> f64| spread(grid.reports().map(|(_, report)| value(report)).collect());
-    let (by_f, by_lfs, efficiency) = (
-        of(|r| r.size_ratio)?,
-        of(|r| r.size_ratio_lfs)?,
-        of(|r| r.size_efficiency)?,
-    );
-    Some(format!(
-        "**Size** of bitten meshes, with spacing `{title}`. Triangles/∫dA/f² lie between {} and {}, times (√3/4)c_b² between {} and {} \
-         (median {}). Triangles/∫dA/lfs² lie between {} and {}.",
-        number(by_f.least),
-        number(by_f.most),
-        number(efficiency.least),
-        number(efficiency.most),
-        number(efficiency.median),
-        number(by_lfs.least),
-        number(by_lfs.most)
-    ))
+    let grids = results.grids(Section::Size);
+    let Some((title, grid)) = grids.first() else {
+        return Vec::new();
+    };
+    let of = |by: &Measure| spread(grid.reports().filter_map(|(_, report)| (by.value)(report)).collect());
+    let by_f = of(&SIZE_EFFICIENCY).map(|spread| {
+        let [least, most, middle] = [spread.least, spread.most, spread.median].map(number);
+        format!(
+            "With `{title}`, triangles/∫dA/f² times (√3/4)c_b² lies between {least} and {most}, in the median {middle}, over {} meshes.",
+            spread.count
+        )
+    });
+    let by_lfs = of(&SIZE_RATIO_LFS).map(|spread| {
+        let [least, most] = [spread.least, spread.most].map(number);
+        format!("With `{title}`, triangles/∫dA/lfs² lies between {least} and {most}, by t and c_b.")
+    });
+    by_f.into_iter().chain(by_lfs).collect()
 }
 
 /// Tables t × c_b of medians over domains.
 pub(super) fn text(results: &Results) -> String {
     let mut text = String::new();
     for (index, (title, grid)) in results.grids(Section::Size).iter().enumerate() {
-        text +=
-            &format!("Triangles/∫dA/f² with `{title}`, median over the measured domains (how many of how many):\n\n");
-        text += &t_by_c_b(grid, |report| report.size_ratio);
-        if index == 0 {
-            text += &format!("Triangles/∫dA/lfs² with `{title}`, likewise:\n\n");
-            text += &t_by_c_b(grid, |report| report.size_ratio_lfs);
+        let measures = if index == 0 {
+            &[SIZE_RATIO, SIZE_RATIO_LFS][..]
+        } else {
+            &[SIZE_RATIO]
+        };
+        for by in measures {
+            text += &format!(
+                "{} with `{title}`, median over the measured domains (how many of how many):\n\n",
+                by.title
+            );
+            text += &t_by_c_b(grid, by);
         }
     }
     text
 }
 
 /// A table with a line for each t and a column for each c_b.
-fn t_by_c_b(grid: &Grid, value: fn(&Report) -> f64) -> String {
+fn t_by_c_b(grid: &Grid, by: &Measure) -> String {
     let head: Vec<String> = grid
         .c_bs
         .iter()
@@ -61,7 +61,7 @@ fn t_by_c_b(grid: &Grid, value: fn(&Report) -> f64) -> String {
     let cell = |t: f64, c_b: f64| {
         let rows = grid.at(t, c_b);
         let done = rows.iter().filter(|row| measured(row).is_some()).count();
-        match grid.median(t, c_b, value) {
+        match grid.median(t, c_b, by.value) {
             Some(middle) if done == rows.len() => number(middle),
             Some(middle) => format!("{} ({done} of {})", number(middle), rows.len()),
             None => format!("– (0 of {})", rows.len()),
@@ -87,14 +87,14 @@ pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), Chart
     let first = std::slice::from_ref(first);
     let caption = "Triangles over ∫dA/f² for each t and c_b, median over domains; * where some domains are missing.";
     let stem = drawer.chart("size-heat", caption);
-    charts::heat_map(&grids, charts::SIZE_RATIO, &stem)?;
+    charts::heat_map(&grids, &SIZE_RATIO, &stem)?;
     let stem = drawer.chart("size-against-t", "The same against t, one line for each c_b.");
-    charts::against_t(&grids, charts::SIZE_RATIO, &stem)?;
+    charts::against_t(&grids, &SIZE_RATIO, &stem)?;
     let caption = "Triangles over ∫dA/lfs² for each t and c_b, median over domains; * where some domains are missing.";
     let stem = drawer.chart("size-lfs-heat", caption);
-    charts::heat_map(first, charts::SIZE_RATIO_LFS, &stem)?;
+    charts::heat_map(first, &SIZE_RATIO_LFS, &stem)?;
     let stem = drawer.chart("size-lfs-against-t", "The same against t, one line for each c_b.");
-    charts::against_t(first, charts::SIZE_RATIO_LFS, &stem)?;
+    charts::against_t(first, &SIZE_RATIO_LFS, &stem)?;
     let caption = "Size efficiency of each mesh against t / c_b; the dashed lines hold for constant f.";
     charts::efficiency(&grids, &drawer.chart("efficiency", caption))
 }

@@ -1,22 +1,29 @@
 //! Task by task: every method on each.
 
-use super::markdown::{degrees, number, table};
-use super::threads::{range_of, speed};
+use super::markdown::{number, table, value};
+use super::threads::range_of;
 use crate::suite::analysis::contest::Contest;
-use crate::suite::analysis::results::Results;
-use crate::suite::rows::record::{Outcome, Row};
+use crate::suite::analysis::measures::{
+    EDGES, MEAN_ANGLE, MIN_ANGLE, Measure, P05_ANGLE, SIZE_RATIO, SPEED, TRIANGLES, UNDER_20, UNDER_30,
+};
+use crate::suite::analysis::results::{Asking, Results};
+use crate::suite::rows::record::{Outcome, Report, Row};
 use crate::suite::run::plan::Section;
+
+/// The columns that are numbers of a mesh.
+const MEASURES: [Measure; 11] = [
+    TRIANGLES, SIZE_RATIO, EDGES[0], EDGES[1], EDGES[2], MIN_ANGLE, MEAN_ANGLE, P05_ANGLE, UNDER_20, UNDER_30, SPEED,
+];
 
 /// A table for each task.
 pub(super) fn text(results: &Results) -> String {
-    let contests = [
-        ("equal edge length", results.at_equal_size(Section::Tasks)),
-        ("equal triangle count", results.at_equal_count(Section::Tasks)),
-    ];
-    let tasks = contests
-        .iter()
-        .flat_map(|(title, contest)| (0..contest.tasks.len()).map(move |task| task_table(contest, task, title)));
-    tasks.collect()
+    let askings = results.askings(Section::Tasks);
+    let tables = |Asking { title, contest, .. }: &Asking| -> String {
+        (0..contest.tasks.len())
+            .map(|task| task_table(contest, task, title))
+            .collect()
+    };
+    askings.iter().map(tables).collect()
 }
 
 /// Every method on one task.
@@ -28,36 +35,34 @@ fn task_table(contest: &Contest, task: usize, title: &str) -> String {
         Some(1) => ", once",
         _ => "",
     };
-    let line = |method: usize| Some((contest.row(method, task)?, &contest.methods[method].label));
-    let lines: Vec<Vec<String>> = contest
-        .all()
-        .into_iter()
-        .filter_map(line)
-        .map(|(row, label)| task_line(row, label))
-        .collect();
-    let head = [
-        "mesher",
-        "triangles",
-        "/∫dA/f²",
-        "edge/s 5, 50, 95 %",
-        "smallest",
-        "mean",
-        "5th percentile",
-        "under 20°",
-        "under 30°",
-        "10⁶ triangles/s",
-        "range of repeats",
-        "peak MB (before)",
-        "",
-    ];
-    format!(
-        "### {}, `{}`, at {title}{wanted}{once}\n\n",
-        asked.domain, asked.spacing
-    ) + &table(&head, &lines)
+    let line = |method: usize| Some(task_line(contest.row(method, task)?, &contest.methods[method].label));
+    let lines: Vec<Vec<String>> = contest.all().into_iter().filter_map(line).collect();
+    let labels = MEASURES.map(|measure| measure.label());
+    let mut head = vec!["mesher"];
+    head.extend(labels.iter().map(String::as_str));
+    head.extend(["range of repeats", "peak MB (before)", ""]);
+    let (domain, spacing) = (&asked.domain, &asked.spacing);
+    format!("### {domain}, `{spacing}`, at {title}{wanted}{once}\n\n") + &table(&head, &lines)
+}
+
+/// A line of a task's table: also of a mesh that does not conform, with what it breaks.
+fn task_line(row: &Row, label: &str) -> Vec<String> {
+    let report = row.report.as_ref();
+    let mut line = vec![label.to_owned()];
+    line.extend(MEASURES.iter().map(|by| value(by, report.and_then(by.value))));
+    line.push(range_of(&row.samples));
+    line.push(report.map_or_else(|| "–".into(), memory));
+    line.push(match row.outcome {
+        Outcome::Measured => String::new(),
+        Outcome::Skipped => ended("skipped", row),
+        Outcome::Declined => ended("declined", row),
+        Outcome::Failed => ended("failed", row),
+    });
+    line
 }
 
 /// How a row ended and why, the reason once.
-fn told(how: &str, row: &Row) -> String {
+fn ended(how: &str, row: &Row) -> String {
     let reason = row.reason.as_deref().unwrap_or_default();
     let reason = reason
         .strip_prefix(how)
@@ -66,43 +71,8 @@ fn told(how: &str, row: &Row) -> String {
     format!("{how}: {reason}")
 }
 
-/// A line of a task's table: also of a mesh that does not conform, with what it breaks.
-fn task_line(row: &Row, label: &str) -> Vec<String> {
-    let reason = match row.outcome {
-        Outcome::Measured => String::new(),
-        Outcome::Skipped => told("skipped", row),
-        Outcome::Declined => told("declined", row),
-        Outcome::Failed => told("failed", row),
-    };
-    let Some(report) = &row.report else {
-        let blank = std::iter::repeat_n("–".to_owned(), 11);
-        return std::iter::once(label.to_owned()).chain(blank).chain([reason]).collect();
-    };
-    let statistics = &report.statistics;
-    let percent = |degrees: usize| format!("{} %", number(100.0 * statistics.share_under(degrees)));
-    let edges = statistics.edge_over_size.as_ref();
-    let edges = edges.map_or_else(
-        || "–".to_owned(),
-        |edge| [edge.p05, edge.p50, edge.p95].map(number).join(", "),
-    );
-    let megabytes = |bytes: u64| number(bytes as f64 / 1e6);
-    vec![
-        label.to_owned(),
-        statistics.triangles.to_string(),
-        number(report.size_ratio),
-        edges,
-        degrees(statistics.min_angle_free_deg),
-        degrees(statistics.mean_min_angle_deg),
-        degrees(statistics.p05_min_angle_deg),
-        percent(20),
-        percent(30),
-        number(speed(report)),
-        range_of(&row.samples),
-        format!(
-            "{} ({})",
-            megabytes(report.peak_rss_bytes),
-            megabytes(report.rss_before_bytes)
-        ),
-        reason,
-    ]
+/// Peak memory, and that before meshing.
+fn memory(report: &Report) -> String {
+    let [peak, before] = [report.peak_rss_bytes, report.rss_before_bytes].map(|bytes| number(bytes as f64 / 1e6));
+    format!("{peak} ({before})")
 }

@@ -9,12 +9,14 @@ use super::angle::margins;
 use super::certificate::{self, broken_checks, claim_tallies};
 use super::fewest::fewest;
 use super::fixture::{leave, measured, results, row, sweep};
-use super::orders::order_findings;
+use super::orders::best_on;
 use super::time::slopes;
-use super::{ReportError, page, write};
+use super::{ReportError, orders, page, write};
 use crate::meshers::{Budget, Request};
+use crate::suite::analysis::measures::{MEAN_ANGLE, MIN_ANGLE};
 use crate::suite::analysis::results::PLAN;
-use crate::suite::analysis::summary::{Grid, frontier};
+use crate::suite::analysis::series::order_groups;
+use crate::suite::analysis::summary::{Grid, Setting, unbeaten_pairs};
 use crate::suite::rows::record::{Outcome, Provenance, ROWS, Row};
 use crate::suite::run::plan::Section;
 use crate::suite::run::prepare::Store;
@@ -42,12 +44,13 @@ fn three_domains() -> Vec<Row> {
 #[test]
 fn margins_by_hand() {
     let rows = three_domains();
-    let margins = margins(&Grid::of(&rows));
-    let plain = margins[0].papers.unwrap();
-    assert_eq!((plain.count, margins.len()), (2, 2));
+    let grid = Grid::of(&rows);
+    let plain = margins(&grid, Setting::Papers, Some(0.25)).unwrap();
+    assert_eq!(plain.count, 2);
     assert!((plain.least - 1.0).abs() < 1e-9 && (plain.median - 2.5).abs() < 1e-9 && (plain.most - 4.0).abs() < 1e-9);
-    assert!((margins[0].acute.unwrap().least + 2.0).abs() < 1e-9);
-    assert_eq!(margins[1].papers.unwrap().count, 1);
+    assert!((margins(&grid, Setting::Acute, Some(0.25)).unwrap().least + 2.0).abs() < 1e-9);
+    assert_eq!(margins(&grid, Setting::Papers, Some(0.5)).unwrap().count, 1);
+    assert_eq!(margins(&grid, Setting::Papers, None).unwrap().count, 3);
 }
 
 #[test]
@@ -72,7 +75,7 @@ fn the_frontier_keeps_what_nothing_beats() {
             .filter(|row| row.group == "grid" && row.cell.spacing == "lfs"),
     );
     let pairs = grid.pairs();
-    let best = frontier(&pairs);
+    let best = unbeaten_pairs(&pairs);
     let beats = |a: &crate::suite::analysis::summary::Pair, b: &crate::suite::analysis::summary::Pair| {
         let no_worse = a.smallest_angle_deg >= b.smallest_angle_deg && a.size_ratio_lfs <= b.size_ratio_lfs;
         no_worse && (a.smallest_angle_deg, a.size_ratio_lfs) != (b.smallest_angle_deg, b.size_ratio_lfs)
@@ -97,20 +100,28 @@ fn orders_by_hand() {
         order("a", "lifo", 21.0),
         row("orders", "b", "lfs", 0.5, 1.0, "lifo"),
     ];
-    let findings = order_findings(&rows.iter().collect::<Vec<_>>());
-    let [fifo, lifo] = &findings[..] else {
+    let results = results(&rows);
+    let page = orders::text(&results);
+    // The fixture's mean is half the smallest angle plus 36°, its bound at t = 0.5 is 0.
+    for line in [
+        "| lfs | fifo | 2 of 2 | 22.00 | 47.00 |",
+        "| lfs | lifo | 1 of 2 | 21.00 | 46.50 |",
+    ] {
+        assert!(page.contains(line), "{line}\n{page}");
+    }
+    let rows = results.ours(Section::Orders);
+    let groups = order_groups(&rows);
+    let [fifo, lifo] = &groups[..] else {
         panic!("two orders")
     };
-    assert_eq!((fifo.order.as_str(), fifo.asked, fifo.measured), ("fifo", 2, 2));
-    assert_eq!((lifo.asked, lifo.measured), (2, 1));
-    assert_eq!(fifo.smallest_deg, Some(22.0));
-    // The fixture's mean is half the smallest angle plus 36°.
-    assert_eq!(fifo.mean_deg, Some(47.0));
+    assert_eq!(best_on(&groups, fifo, &MEAN_ANGLE), ["b"]);
+    assert_eq!(best_on(&groups, lifo, &MIN_ANGLE), ["a"]);
     assert_eq!(
-        (&fifo.best_mean_on, &lifo.best_mean_on),
-        (&vec!["b".to_string()], &vec!["a".to_string()])
+        orders::findings(&results),
+        [
+            "With `lfs`, order `fifo` has the largest mean smallest angle, 47.00° in the median over domains, at 1.00 times the time of the fastest order."
+        ]
     );
-    assert!((fifo.seconds_per_triangle.unwrap() - 1e-6).abs() < 1e-18);
 }
 
 #[test]
@@ -146,7 +157,7 @@ fn a_broken_bound_is_listed_with_its_place() {
     assert!(broken[0].contains(&"(0.250, 0.750)".to_string()) && broken[0].contains(&"36.00°".to_string()));
     assert!(broken_checks(&results, false).is_empty());
     let finding = &certificate::findings(&results)[0];
-    assert!(finding.contains("holds in 4 of 5 meshes"), "{finding}");
+    assert!(finding.contains("holds in 4 of 5 meshes;"), "{finding}");
 }
 
 #[test]
@@ -257,4 +268,36 @@ fn the_same_rows_in_any_order_give_the_same_bytes() {
         let most = if name.ends_with(".svg") { 300_000 } else { 200_000 };
         assert!((2_000..most).contains(&bytes.len()), "{name} has {} bytes", bytes.len());
     }
+}
+
+/// Words of a sentence, by blanks.
+fn words(sentence: &str) -> usize {
+    sentence.split_whitespace().count()
+}
+
+#[test]
+fn findings_are_short_and_headlines_shorter() {
+    let mut pages = 0;
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in std::fs::read_dir(root.join("results")).unwrap().flatten() {
+        let Ok(page) = std::fs::read_to_string(folder.path().join("README.md")) else {
+            continue;
+        };
+        let name = folder.path().display().to_string();
+        let headline = page.lines().find_map(|line| line.strip_prefix("**In short.** "));
+        for sentence in headline
+            .unwrap_or_else(|| panic!("{name} has no headline"))
+            .split_inclusive(". ")
+        {
+            let count = words(sentence);
+            assert!(count <= 25, "{name}: {count} words: {sentence}");
+        }
+        let findings = page.split("## Findings\n\n").nth(1).unwrap_or_default();
+        for finding in findings.lines().map_while(|line| line.strip_prefix("* ")) {
+            let count = words(finding);
+            assert!(count <= 30, "{name}: {count} words: {finding}");
+            pages += 1;
+        }
+    }
+    assert!(pages > 40, "{pages} findings");
 }

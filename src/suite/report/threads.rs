@@ -1,11 +1,12 @@
 //! Speed by number of threads, of the methods that were run with several.
 
-use super::markdown::{number, table};
+use super::markdown::{table, value};
 use crate::suite::analysis::contest::Method;
+use crate::suite::analysis::measures::{SPEED, TRIANGLES};
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
 use crate::suite::rows::numbers::quantile;
-use crate::suite::rows::record::{Report, Row};
+use crate::suite::rows::record::Row;
 use crate::suite::run::plan::Section;
 
 /// Speed by number of threads, of the methods that were run with several.
@@ -15,20 +16,15 @@ pub(super) fn text(results: &Results) -> String {
         vec![
             Method::of(row).label,
             row.cell.threads.to_string(),
-            measured(row).map_or_else(|| "–".to_owned(), |report| report.statistics.triangles.to_string()),
-            number(measured(row).and_then(speed)),
+            value(&TRIANGLES, measured(row).and_then(TRIANGLES.value)),
+            value(&SPEED, measured(row).and_then(SPEED.value)),
             range_of(&row.samples),
         ]
     };
     let lines: Vec<Vec<String>> = own.iter().map(line).collect();
-    let head = ["mesher", "threads", "triangles", "10⁶ triangles/s", "range of repeats"];
+    let speed = SPEED.label();
+    let head = ["mesher", "threads", "triangles", speed.as_str(), "range of repeats"];
     table(&head, &lines)
-}
-
-/// Millions of triangles a second.
-pub(super) fn speed(report: &Report) -> Option<f64> {
-    let seconds = report.seconds.total;
-    (seconds > 0.0).then(|| 1e-6 * report.statistics.triangles as f64 / seconds)
 }
 
 /// From the fastest repeat to the slowest, over their median, in percent.

@@ -38,26 +38,20 @@ pub(super) fn slopes(results: &Results) -> Vec<Slope> {
     series.into_iter().map(one).collect()
 }
 
-/// Slopes of log seconds against log triangles.
+/// With what power of the triangles the time of the whole grows.
 pub(super) fn findings(results: &Results) -> Vec<String> {
-    finding(results).into_iter().collect()
-}
-
-fn finding(results: &Results) -> Option<String> {
     let slopes = slopes(results);
-    let whole = slopes.first()?;
-    let growth = whole.slope?;
-    let triangulation = slopes.iter().find(|step| step.name.contains("triangulation"));
-    let beside = triangulation.map(|step| format!(", that of the triangulation within it {}", number(step.slope)));
-    Some(format!(
-        "**Time** of {} grows with triangles to the power {}{}; from {} to {} triangles, {} µs per triangle in the median.",
-        results.about,
-        number(growth),
-        beside.unwrap_or_default(),
-        number(whole.triangles.0),
-        number(whole.triangles.1),
-        number(whole.seconds_per_triangle.map(|seconds| 1e6 * seconds))
-    ))
+    let finding = slopes.first().and_then(|whole| {
+        Some(format!(
+            "Time of {} grows with triangles to the power {} from {} to {} triangles; the median is {} µs per triangle.",
+            results.about,
+            number(whole.slope?),
+            number(whole.triangles.0),
+            number(whole.triangles.1),
+            number(whole.seconds_per_triangle.map(|seconds| 1e6 * seconds))
+        ))
+    });
+    finding.into_iter().collect()
 }
 
 /// Slope and time per triangle of each step.

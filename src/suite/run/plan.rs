@@ -3,7 +3,8 @@
 //! ```toml
 //! question = "How far above the bound is the smallest angle?"
 //! about = "biting"               # the mesher the question is about: default the first one named
-//! sections = ["angle", "size"]   # of the page, for groups that name none: default by what they vary (`--dry-run` tells)
+//! sections = ["angle", "size"]   # of the page, for groups that name none: default by what they vary (`--dry-run` prints it)
+//! headline = ["angle"]           # whose first findings answer the question: default the first that has any
 //!
 //! [budget]                       # of each cell; a cell above it is written as skipped, with the estimate
 //! triangles = 150_000
@@ -106,6 +107,8 @@ pub struct Plan {
     pub about: String,
     /// The sections of its page, each with the names of the groups whose rows it shows.
     pub sections: BTreeMap<Section, BTreeSet<String>>,
+    /// The sections whose first findings answer the question; none for the first that has any.
+    pub headline: Vec<Section>,
     /// Limits of each cell.
     pub budget: CellBudget,
     /// What must come out.
@@ -197,6 +200,8 @@ struct File {
     #[serde(default)]
     sections: Option<Vec<Section>>,
     #[serde(default)]
+    headline: Vec<Section>,
+    #[serde(default)]
     budget: CellBudget,
     #[serde(default)]
     expect: Expectations,
@@ -239,6 +244,7 @@ impl Plan {
             question,
             about,
             sections,
+            headline,
             budget,
             expect,
             methods,
@@ -255,6 +261,7 @@ impl Plan {
             question,
             about: String::new(),
             sections: BTreeMap::new(),
+            headline,
             budget,
             expect,
             groups: group,
@@ -264,6 +271,7 @@ impl Plan {
             let cells = plan.cells()?;
             plan.about = mesher_in_question(about, &cells).map_err(error)?;
             plan.sections = plan.sections_of(&cells, sections.as_deref());
+            plan.check_headline().map_err(error)?;
         }
         plan.check_batteries().map_err(error)?;
         Ok(plan)
@@ -285,11 +293,25 @@ impl Plan {
                     Section::defaults(&own.map(|planned| &planned.cell).collect::<Vec<_>>(), &self.about)
                 }
             };
-            for section in shown {
+            for section in shown.into_iter().chain([Section::Certificate]) {
                 sections.entry(section).or_default().insert(name.to_owned());
             }
         }
         sections
+    }
+
+    fn check_headline(&self) -> Result<(), String> {
+        let missing = self
+            .headline
+            .iter()
+            .find(|section| !self.sections.contains_key(section));
+        missing.map_or(Ok(()), |missing| {
+            let sections: Vec<String> = self.sections.keys().map(Section::to_string).collect();
+            Err(format!(
+                "`headline` has `{missing}`, but its page has {}",
+                sections.join(", ")
+            ))
+        })
     }
 
     fn check_batteries(&self) -> Result<(), String> {

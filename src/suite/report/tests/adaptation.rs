@@ -85,7 +85,7 @@ fn slopes_are_those_of_the_powers() {
     // 64 000^(−2/3) = 1/1600 against 10 / 64 000.
     assert!(
         told.contains(
-            "`corner on l-shape`: slope -1.000 adapted, -0.667 uniform; at 64000 vertices uniform meshes have 4.00 times"
+            "`corner on l-shape`, uniform meshes of 64000 vertices have 4.00 times the L2 error of adapted ones; slopes are -0.667 and -1.000."
         ),
         "{told}"
     );

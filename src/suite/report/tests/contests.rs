@@ -1,11 +1,13 @@
 //! Comparisons against numbers worked out by hand.
 
-use super::super::duels::{YARDSTICKS, duel};
+use super::super::duels::duel;
 use super::super::fixture::{asked, done, leave, results};
-use super::super::ranks::{rank_finding, rankings};
-use super::super::{duels, page, write};
+use super::super::ranks::{self, rankings};
+use super::super::standings::standings;
+use super::super::{duels, write};
 use crate::quality::{Angles, Seams};
 use crate::suite::analysis::contest::{Contest, Method};
+use crate::suite::analysis::measures::{MIN_ANGLE, TIME, TRIANGLES};
 use crate::suite::analysis::remarks::{meetings, samplings};
 use crate::suite::rows::record::{Outcome, Row, Try};
 use crate::suite::run::plan::Section;
@@ -42,62 +44,38 @@ fn three_domains() -> Vec<Row> {
 #[test]
 fn places_are_by_medians_over_common_tasks() {
     let rows = three_domains();
-    let rankings = rankings(&Contest::of(&rows), false);
-    assert_eq!(rankings[0].name, YARDSTICKS[0].name);
+    let all = results(&rows);
+    let rankings = rankings(&all.askings(Section::Duels)[0]);
+    assert_eq!(rankings[0].by, MIN_ANGLE);
     // Of a and b: ours 10 and 12 above the bound, its variant the same, the rival's 8 and 16.
     let places = [0, 1, 2].map(|method| rankings[0].place(method).unwrap().0);
     assert_eq!(places, [2, 2, 1]);
-    let triangles = rankings.iter().find(|ranking| ranking.name == "triangles").unwrap();
+    let triangles = rankings.iter().find(|ranking| ranking.by == TRIANGLES).unwrap();
     assert_eq!(
         [0, 1, 2].map(|method| triangles.place(method).unwrap()),
         [(1, 1500.0), (1, 1500.0), (3, 3000.0)]
     );
-    let told = rank_finding(&results(&rows)).unwrap();
-    assert!(
-        told.contains("among all 3 methods") && told.contains("2nd with 25.5, behind rival with 26.5"),
-        "{told}"
-    );
-    let without_variant: Vec<Row> = rows.into_iter().filter(|row| row.cell.params.is_empty()).collect();
-    assert_eq!(rank_finding(&results(&without_variant)), None);
+    let told = ranks::findings(&all);
+    let expected = "At equal edge length biting is 2nd of 3 methods by smallest angle, 1st by triangles, 1st by time per triangle.";
+    assert_eq!(told, [expected]);
 }
 
 #[test]
 fn other_pages_quote_a_table_of_one_method_a_mesher() {
-    let told = page::findings_in_short(&results(&three_domains()));
-    assert!(
-        !told.contains("**biting : rival**") && !told.contains("among all"),
-        "{told}"
-    );
-    let table: Vec<&str> = told
-        .lines()
-        .skip_while(|line| !line.starts_with("At equal edge length"))
-        .collect();
-    assert!(table[0].contains("the 2 of 3 tasks"), "{told}");
+    let told = standings(&results(&three_domains()), &["biting", "rival", "nobody"]);
+    let table: Vec<&str> = told.lines().collect();
     let cells = |line: &str| line.split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
-    let [ours, theirs] = [4, 5].map(|k: usize| cells(table[k]));
+    let [ours, theirs] = [2, 3].map(|k: usize| cells(table[k]));
     assert_eq!(
         [ours[1].as_str(), ours[2].as_str(), ours[6].as_str()],
-        ["biting", "25.5", "**1500**"]
+        ["biting", "25.48", "**1500**"]
     );
     assert_eq!(
         [theirs[1].as_str(), theirs[2].as_str(), theirs[6].as_str()],
-        ["rival", "**26.5**", "3000"]
+        ["rival", "**26.48**", "3000"]
     );
-    assert_eq!(table.len(), 6, "{told}");
-    // Who measured one of three is named, and takes no part.
-    let mut rows = three_domains();
-    for row in rows
-        .iter_mut()
-        .filter(|row| row.cell.mesher == "rival" && row.cell.domain == "a")
-    {
-        (row.outcome, row.report) = (Outcome::Failed, None);
-    }
-    let told = page::findings_in_short(&results(&rows));
-    assert!(
-        told.contains("the 3 of 3 tasks") && told.contains("(left out: rival, with fewer than half)"),
-        "{told}"
-    );
-    assert!(!told.contains("| rival"), "{told}");
+    assert_eq!(table.len(), 4, "{told}");
+    assert_eq!(standings(&results(&three_domains()), &["biting", "nobody"]), "");
 }
 
 #[test]
@@ -136,19 +114,19 @@ fn a_contest_counts_who_failed_and_compares_on_common_tasks() {
 fn duels_by_hand() {
     let rows = three_domains();
     let contest = Contest::of(&rows);
-    let smallest = duel(&contest, 0, 2, YARDSTICKS[0]).unwrap();
+    let smallest = duel(&contest, [0, 2], &MIN_ANGLE).unwrap();
     assert_eq!((smallest.better, smallest.worse, smallest.of), (1, 1, 2));
     assert!((smallest.difference + 1.0).abs() < 1e-9);
     assert_eq!(smallest.ends.map(|(task, _)| task), [0, 1]);
     assert!((smallest.ends[0].1 - 2.0).abs() < 1e-9 && (smallest.ends[1].1 + 4.0).abs() < 1e-9);
     // Half the triangles is better; the difference is ours less theirs.
-    let triangles = duel(&contest, 0, 2, YARDSTICKS[4]).unwrap();
+    let triangles = duel(&contest, [0, 2], &TRIANGLES).unwrap();
     assert_eq!(
         (triangles.better, triangles.worse, triangles.difference),
         (2, 0, -1500.0)
     );
     // The fixture gives every mesh a microsecond a triangle.
-    let time = duel(&contest, 0, 2, YARDSTICKS[6]).unwrap();
+    let time = duel(&contest, [0, 2], &TIME).unwrap();
     assert_eq!((time.better, time.worse), (0, 0));
 }
 
@@ -262,8 +240,8 @@ fn the_page_sets_meshers_side_by_side() {
         "1 of 2 meshes did not come so near, the farthest being 18.0 % off",
         "### biting against rival, at equal edge length",
         "### biting against rival, at equal triangle count",
-        "**The paper's remark that an advancing front loses quality where fronts meet holds** for front",
-        "**The paper's remark that independent sets of oversampled points cost more holds in part**: 2 of 3",
+        "The paper's remark that quality is lost where fronts meet holds for front: mean smallest angle 40.00° there, 50.00° elsewhere",
+        "The paper's remark that oversampling costs more holds in part: 2 of 3 densities take longer than biting, 0.800 to 1.20 times",
         "| biting | 3 of 3 | 10000 to 160000 |",
         "| `meshers/c/rival/{}` | failed | fronts did not close |",
     ] {
@@ -297,12 +275,14 @@ fn the_page_sets_meshers_side_by_side() {
 #[test]
 fn the_findings_tell_of_every_rival() {
     let told = duels::findings(&results(&everything()));
-    let line = told.iter().find(|line| line.contains("**biting : rival**")).unwrap();
-    assert!(
-        line.contains("; even in smallest angle (°)")
-            && line.contains("(1 of 2)")
-            && line.contains("At equal triangle count"),
-        "{line}"
-    );
-    assert!(told.iter().any(|line| line.contains("**biting : front**")), "{told:?}");
+    for expected in [
+        "At equal edge length biting is better than rival in 1 of 7 measures; smallest angle 25.48° against 26.48°",
+        "At equal edge length biting is better than front in",
+        "At equal triangle count biting is better than rival in 0 of 5 measures",
+    ] {
+        assert!(
+            told.iter().any(|line| line.starts_with(expected)),
+            "{expected}: {told:#?}"
+        );
+    }
 }

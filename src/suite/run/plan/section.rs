@@ -47,6 +47,8 @@ pub enum Section {
     Oversampling,
     /// A picture of a mesh of each domain.
     Meshes,
+    /// How often each claim of the certificate held: a section of every page.
+    Certificate,
 }
 
 impl std::fmt::Display for Section {

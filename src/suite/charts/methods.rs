@@ -4,35 +4,13 @@ use super::canvas::{Area, ChartError, Drawn, FINE, Figure, write_both};
 use super::dots::{Column, Dot, Dots, apart};
 use super::legend::{Entry, Key, legend_row};
 use super::panel::{Axis, Panel, span};
-use super::size::Measure;
 use super::style::{self, Marker};
 use crate::suite::analysis::contest::{Contest, Method};
-use crate::suite::analysis::summary::measured;
+use crate::suite::analysis::measures::{BETA, MEAN_ANGLE, MIN_ANGLE, Measure, SIZE_EFFICIENCY, TIME};
 use crate::suite::rows::numbers::distinct;
 use crate::suite::rows::record::{Outcome, Report, Row};
 use plotters::prelude::DrawingBackend;
 use std::path::Path;
-
-const SMALLEST: Measure = Measure {
-    label: "smallest (°)",
-    value: |report| report.statistics.min_angle_free_deg.unwrap_or(f64::NAN),
-};
-const MEAN: Measure = Measure {
-    label: "mean (°)",
-    value: |report| report.statistics.mean_min_angle_deg,
-};
-const EFFICIENCY: Measure = Measure {
-    label: "efficiency",
-    value: |report| report.size_efficiency,
-};
-const BETA: Measure = Measure {
-    label: "β",
-    value: |report| report.statistics.beta.unwrap_or(f64::NAN),
-};
-const SECONDS: Measure = Measure {
-    label: "µs/triangle",
-    value: |report| 1e6 * report.seconds.total / report.statistics.triangles as f64,
-};
 
 /// How a row without a report ended, in a word.
 fn ending(row: Option<&Row>) -> &'static str {
@@ -78,15 +56,15 @@ fn entries(contest: &Contest, methods: &[usize], key: fn(Marker) -> Key) -> Vec<
 pub fn methods(contest: &Contest, stem: &Path) -> Result<(), ChartError> {
     let common = contest.common(&contest.all());
     let column = |measure: Measure| Column {
-        label: measure.label.to_string(),
-        is_log: measure.label == SECONDS.label,
+        label: measure.short_label(),
+        is_log: measure == TIME,
         dots: contest
             .all()
             .into_iter()
             .map(|k| Dot {
                 line: k,
                 shift: 0.0,
-                values: contest.values(k, &common, |report| Some((measure.value)(report))),
+                values: contest.values(k, &common, measure.value),
                 marker: style::method(&contest.methods[k]),
                 missing: "none",
             })
@@ -94,7 +72,7 @@ pub fn methods(contest: &Contest, stem: &Path) -> Result<(), ChartError> {
     };
     let figure = Dots {
         names: names(contest),
-        columns: [SMALLEST, MEAN, EFFICIENCY, BETA, SECONDS].map(column).into(),
+        columns: [MIN_ANGLE, MEAN_ANGLE, SIZE_EFFICIENCY, BETA, TIME].map(column).into(),
         key: entries(contest, &contest.leads(), Key::Series),
     };
     write_both(&figure, stem)
@@ -125,7 +103,7 @@ pub fn domains(contest: &Contest, methods: &[usize], stem: &Path) -> Result<(), 
         for (line, (_, tasks)) in lines.iter().enumerate() {
             for (place, &k) in methods.iter().enumerate() {
                 let row = tasks.first().and_then(|task| contest.row(k, *task));
-                let values = contest.values(k, tasks, |report| Some((measure.value)(report)));
+                let values = contest.values(k, tasks, measure.value);
                 // Of many, words would stand on one another: the page's tables tell then.
                 if values.is_empty() && methods.len() > MOST_WORDS {
                     continue;
@@ -142,63 +120,14 @@ pub fn domains(contest: &Contest, methods: &[usize], stem: &Path) -> Result<(), 
         dots
     };
     let column = |measure: Measure| Column {
-        label: measure.label.to_string(),
+        label: measure.short_label(),
         is_log: false,
         dots: dots(measure),
     };
     let figure = Dots {
-        columns: [SMALLEST, MEAN].map(column).into(),
+        columns: [MIN_ANGLE, MEAN_ANGLE].map(column).into(),
         key: entries(contest, methods, Key::Series),
         names: lines.iter().map(|(name, _)| name.clone()).collect(),
-    };
-    write_both(&figure, stem)
-}
-
-/// Draws mean angles where fronts met, hollow, and elsewhere, for each mesh in which they did; the 5th percentile and the
-/// share of triangles under 30° likewise.
-///
-/// # Errors
-/// [`ChartError`].
-pub fn seams(rows: &[(&Row, String)], stem: &Path) -> Result<(), ChartError> {
-    type Of = fn(&crate::quality::Angles) -> f64;
-    let columns: [(&str, Of); 3] = [
-        ("mean (°)", |angles| angles.mean_deg),
-        ("5th percentile (°)", |angles| angles.p05_deg),
-        ("triangles under 30° (%)", |angles| 100.0 * angles.share_under_30),
-    ];
-    let marker = |row: &Row| style::method(&Method::of(row));
-    let column = |(label, value): (&str, Of)| {
-        let mut dots = Vec::new();
-        for (line, (row, _)) in rows.iter().enumerate() {
-            let Some(seams) = measured(row).and_then(|report| report.statistics.seams) else {
-                continue;
-            };
-            let dot = |angles: &crate::quality::Angles, marker: Marker| Dot {
-                line,
-                shift: 0.0,
-                values: vec![value(angles)],
-                marker,
-                missing: "none",
-            };
-            dots.push(dot(&seams.elsewhere, marker(row)));
-            dots.push(dot(&seams.met, marker(row).hollow()));
-        }
-        Column {
-            label: label.to_string(),
-            is_log: false,
-            dots,
-        }
-    };
-    let key = rows.first().map(|(row, _)| marker(row)).map(|marker| {
-        vec![
-            (Key::Point(marker), "elsewhere".to_string()),
-            (Key::Point(marker.hollow()), "where fronts met".to_string()),
-        ]
-    });
-    let figure = Dots {
-        columns: columns.map(column).into(),
-        key: key.unwrap_or_default(),
-        names: rows.iter().map(|(_, name)| name.clone()).collect(),
     };
     write_both(&figure, stem)
 }
@@ -219,16 +148,13 @@ struct AgainstT<'a> {
 
 impl AgainstT<'_> {
     /// Medians over common tasks for each t.
-    fn line(&self, method: usize, c_b: f64, value: fn(&Report) -> f64) -> Vec<(f64, f64)> {
+    fn line(&self, method: usize, c_b: f64, value: fn(&Report) -> Option<f64>) -> Vec<(f64, f64)> {
         let own = self.contest.only(|asked| asked.c_b == c_b);
         let common = own.common(self.methods);
         let ts = distinct(common.iter().map(|task| own.tasks[*task].t));
         let point = |t: f64| {
             let here: Vec<usize> = common.iter().copied().filter(|task| own.tasks[*task].t == t).collect();
-            let middle = own.median(method, &here, |report| {
-                Some(value(report)).filter(|value| value.is_finite())
-            })?;
-            Some((t, middle))
+            Some((t, own.median(method, &here, value)?))
         };
         ts.into_iter().filter_map(point).collect()
     }
@@ -244,7 +170,7 @@ impl Figure for AgainstT<'_> {
         let reach = self.contest.tasks.iter().map(|asked| asked.t).fold(0.0, f64::max);
         let (plots, key) = area.split_vertically((self.size().1 as i32 - 40) * FINE);
         let areas = plots.split_evenly((3, c_bs.len().max(1)));
-        for (row, measure) in [SMALLEST, MEAN, EFFICIENCY].into_iter().enumerate() {
+        for (row, measure) in [MIN_ANGLE, MEAN_ANGLE, SIZE_EFFICIENCY].into_iter().enumerate() {
             let line = |method: &usize, c_b: &f64| self.line(*method, *c_b, measure.value);
             let all = c_bs
                 .iter()
@@ -256,9 +182,9 @@ impl Figure for AgainstT<'_> {
                 } else {
                     String::new()
                 };
-                let label = if column == 0 { measure.label } else { "" };
+                let label = if column == 0 { measure.label() } else { String::new() };
                 let x = Axis::linear(if row == 2 { "t" } else { "" }, 0.0..reach * 1.06, 5);
-                let y = Axis::linear(label, upward.clone(), 6);
+                let y = Axis::linear(&label, upward.clone(), 6);
                 let mut panel = Panel::new(&areas[row * c_bs.len() + column], &title, x, y, 76)?;
                 for method in self.methods {
                     let marker = style::method(&self.contest.methods[*method]);
