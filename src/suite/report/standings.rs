@@ -29,9 +29,9 @@ fn side_by_side(Asking { contest, measures, .. }: &Asking, meshers: &[&str]) -> 
                 if by.gain(other, best) > 0.0 { other } else { best }
             },
         );
-        let best = value(by, best);
+        let best = best.map(|best| value(by, best));
         let cell = |median: &Option<f64>| match value(by, *median) {
-            text if text == best => format!("**{text}**"),
+            text if best.as_ref() == Some(&text) => format!("**{text}**"),
             text => text,
         };
         medians.iter().map(cell).collect::<Vec<String>>()
