@@ -1,7 +1,8 @@
-//! The bite loop beside the triangulation it feeds, on the same points in the same run: read the ratio, not the times.
+//! The bite loop beside the triangulation that follows it, on the same points in the same run: read the ratio, not the
+//! times.
 //!
-//! A million points on the unit square, f = s (1 + ½ sin 20x sin 20y). Before the timed runs the heap growth of the bite
-//! loop is printed in bytes a point.
+//! A million points on the unit square, f = s (1 + ½ sin 20x sin 20y). Before the timed runs, the bench prints the heap
+//! growth of the bite loop in bytes per point.
 
 mod waves;
 
@@ -42,7 +43,7 @@ fn a_million_points(criterion: &mut Criterion) {
     let grown = ALLOCATED.peak_usage() - before;
     let points = bitten.centres.len();
     println!(
-        "{points} points, heap growth of the bite loop {:.0} bytes a point",
+        "{points} points, heap growth of the bite loop {:.0} bytes per point",
         grown as f64 / points as f64
     );
 
@@ -81,8 +82,8 @@ fn a_million_points(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Slope of log seconds against log triangles, of the whole mesh and of spade's bulk load of the same points in the same
-/// run: a whole mesh may grow no faster than the triangulation it contains.
+/// Slope of log seconds against log triangles, for the whole mesh and for spade's bulk load of the same points in the
+/// same run: the time of a whole mesh must grow no faster than that of the triangulation in it.
 fn growth(_: &mut Criterion) {
     let domain = gallery::domain("unit-square")
         .expect("a gallery name")

@@ -1,8 +1,9 @@
 //! Every mesher of the list on the same tasks in one run: read the ratios, not the times.
 //!
-//! Two tasks on the unit square, each asked for so that biting makes about 10⁵ triangles: a uniform spacing and
-//! f = s (1 + ½ sin 20x sin 20y). Throughput is in the triangles of the mesher at hand; before the timed runs the ratios to
-//! the first of the list are printed, for the whole mesh and a triangle, as medians of interleaved runs.
+//! There are two tasks on the unit square, a uniform spacing and f = s (1 + ½ sin 20x sin 20y), each with an s for
+//! which biting makes about 10⁵ triangles. Throughput is in triangles of the mesher that runs. Before the timed runs,
+//! the bench prints the ratios to the first mesher of the list, per mesh and per triangle, as medians of interleaved
+//! runs.
 
 mod waves;
 
@@ -14,7 +15,7 @@ use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_
 use std::time::{Duration, Instant};
 use waves::Waves;
 
-/// Interleaved runs whose median the printed ratios take.
+/// The number of interleaved runs; the printed ratios are their medians.
 const RUNS: usize = 5;
 
 const REQUEST: Request = Request {

@@ -1,7 +1,8 @@
 //! Cost of the control spacing: building and evaluating lfs, the limiter and an expression, and ∫ dA / f².
 //!
-//! The domain is a real outline of 10 223 segments; queries are at the centres of the triangles of a mesh by biting, in the order
-//! of the mesh. The nearest-segment query of the domain stands beside lfs: lfs should cost at most three times as much.
+//! The domain is a real outline of 10 223 segments; queries are at the centres of the triangles of a mesh by biting, in
+//! the order of the mesh. The nearest-segment query of the domain is timed for comparison: lfs should cost at most
+//! three times as much.
 
 use biting::domain::{Domain, gallery};
 use biting::geometry::{DVec2, Rect};

@@ -11,7 +11,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 
-/// Points along a side of the square; inside there are about its square.
+/// Points along a side of the square; there are about the square of this number inside.
 const SIDE: usize = 316;
 
 /// The square's vertices, its sides cut into [`SIDE`] pieces each, then `inside`.

@@ -1,13 +1,13 @@
-//! ARCHITECTURE.md's tree, held to: which module may import which, and who may talk to which crate.
+//! The code is as the tree in ARCHITECTURE.md: which module may import which, and which may use which crate.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Root of the crate, and of the suite: modules are declared there, and nothing is imported by them.
+/// Roots of the crate and of the suite: they declare modules, and import nothing.
 const ROOTS: [&str; 3] = ["lib", "main", "suite/mod"];
 
-/// Writes files for whoever asks, and imports nothing.
+/// Writes files for any module, and imports nothing.
 const FILES: &str = "suite/files";
 
 /// The tree of ARCHITECTURE.md: modules as paths below `src/`, each of which imports only from those before it.
@@ -161,7 +161,7 @@ fn one_door_to_each_outside_crate() {
         {
             let code = code(&path);
             let talks = code.contains(&format!("use {name}::")) || code.contains(&format!(" {name}::"));
-            assert!(!talks, "{} talks to {name}; only {door} may", path.display());
+            assert!(!talks, "{} uses {name}; only {door} may", path.display());
         }
     }
 }

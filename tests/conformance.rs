@@ -1,5 +1,5 @@
 //! One suite for all meshers: every entry of `MESHERS` on every small domain, then the same scaled, rotated, mirrored,
-//! shuffled, run twice and with several threads. The certificate judges; nothing here knows a mesher's name.
+//! shuffled, run twice and with several threads. The certificate judges; no mesher's name occurs here.
 
 use biting::Case;
 use biting::domain::{Domain, Fill, Pslg, gallery};
@@ -61,7 +61,7 @@ impl Method {
     }
 }
 
-/// Every mesher at its defaults and, where it has rules of who bites whom, by each of them.
+/// Every mesher at its defaults; one with several rules of who bites whom, by each of them.
 fn methods() -> Vec<Method> {
     let mut methods = Vec::new();
     for entry in MESHERS {
@@ -83,7 +83,7 @@ fn run(method: &Method, case: &Case, threads: usize) -> Result<Mesh, MeshError> 
     case.mesh_as(&*method.make(), &request(threads), &mut Trace::default())
 }
 
-/// Meshes and holds every guaranteed check of the certificate; a method may decline, with a reason.
+/// Meshes, and asserts every guaranteed check of the certificate. A method may decline, with a reason.
 fn certified(method: &Method, pslg: &Pslg, spec: &str, what: &str) -> Option<Mesh> {
     let case = case(pslg, spec);
     let mesh = match run(method, &case, 1) {
@@ -202,7 +202,7 @@ fn every_kind_of_spacing_by_every_mesher() {
     }
 }
 
-/// Valid domains a method may decline, of a hundred.
+/// The number of valid domains of a hundred that a method may decline.
 const MOST_DECLINED: usize = 1;
 
 #[test]
@@ -234,8 +234,8 @@ fn scaled_from_a_millionth_to_a_million() {
     }
 }
 
-/// Found by `experiments/robustness.toml`: far from the origin distances of neighbours are rounded by more than the share that
-/// the certificate gives way by.
+/// Found by `experiments/robustness.toml`: far from the origin, rounding changes distances of neighbours by more than
+/// the share that the certificate allows.
 #[test]
 fn far_from_the_origin() {
     for method in &methods() {
@@ -324,7 +324,7 @@ fn a_budget_ends_in_an_error_that_says_where() {
     }
 }
 
-/// A spacing that breaks its promise at one half of the unit square.
+/// A spacing that is not positive and finite on one half of the unit square.
 struct Broken(f64);
 
 impl Spacing for Broken {
@@ -338,19 +338,19 @@ impl Spacing for Broken {
 }
 
 #[test]
-fn a_spacing_that_breaks_its_promise_is_told_with_the_place() {
+fn a_spacing_that_is_not_positive_is_reported_with_the_place() {
     let pslg = gallery::pslg("unit-square").expect("a gallery name").expect("a domain");
     let square = Domain::new(pslg).expect("a valid domain");
     for method in &methods() {
         let mesher = method.make();
         for value in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
-            let told = mesher.mesh(&square, &Broken(value), &request(1), &mut Trace::default());
-            let is_told = matches!(told, Err(MeshError::Spacing { x, .. }) if x >= 0.5);
-            assert!(is_told, "{} with {value}: {told:?}", method.name);
+            let result = mesher.mesh(&square, &Broken(value), &request(1), &mut Trace::default());
+            let is_reported = matches!(result, Err(MeshError::Spacing { x, .. }) if x >= 0.5);
+            assert!(is_reported, "{} with {value}: {result:?}", method.name);
         }
-        let told = mesher.mesh(&square, &Broken(1e-14), &request(1), &mut Trace::default());
-        let is_told = matches!(&told, Err(MeshError::Declined(reason)) if reason.contains("resolve"));
-        assert!(is_told, "{}: {told:?}", method.name);
+        let result = mesher.mesh(&square, &Broken(1e-14), &request(1), &mut Trace::default());
+        let is_reported = matches!(&result, Err(MeshError::Declined(reason)) if reason.contains("resolve"));
+        assert!(is_reported, "{}: {result:?}", method.name);
     }
 }
 

@@ -1,4 +1,5 @@
-//! `lfs:geodesic` from SPEC to certificate: arms of a domain that are close outside it are not refined for each other.
+//! `lfs:geodesic` from SPEC to certificate: arms of a domain that are close across the outside are not refined for each
+//! other.
 
 use biting::Case;
 use biting::delaunay::triangulate;
@@ -26,12 +27,12 @@ fn case(domain: &Domain, spec: &str) -> Case {
     Case::new(domain.clone(), spec, T, C_B).expect("a spacing")
 }
 
-/// The same spacing for another c_b.
+/// The same case with another c_b.
 fn with_c_b(case: &Case, c_b: f64) -> Case {
     Case { c_b, ..case.clone() }
 }
 
-/// A constant spacing as it is, said to be capped by lfs.
+/// A case with a constant spacing that counts as capped by lfs.
 fn constant(domain: &Domain, function: impl Spacing + 'static) -> Case {
     let spacing = ControlSpacing {
         lfs_cap: true,
@@ -58,8 +59,8 @@ fn certificate(case: &Case, mesh: &Mesh) -> Certificate {
     case.judge_of(mesh, &Biting::default()).1
 }
 
-/// Triangles of the mesh of a domain by biting, and its smallest angle beside input angles of 60° or more, once its
-/// certificate holds.
+/// The number of triangles of a domain's mesh by biting, and its smallest angle, leaving out triangles at input angles
+/// under 60°. Asserts the certificate.
 fn measured(domain: &Domain, spec: &str) -> (usize, f64) {
     let case = case(domain, spec);
     let mesh = bitten(&case);
@@ -93,7 +94,7 @@ fn two_arms_have_a_third_of_the_triangles() {
 
 #[test]
 fn elsewhere_there_are_no_more() {
-    // The comb's gaps are as wide as its teeth, so that nothing is to be had; star and random-simple have acute angles.
+    // The comb's gaps are as wide as its teeth, so nothing can be saved; star and random-simple have acute angles.
     for name in [
         "comb",
         "gear",
@@ -130,15 +131,15 @@ fn runs_are_equal() {
 fn what_is_not_proved_is_declined() {
     let domain = named("two-arms");
     let inside = case(&domain, "lfs:geodesic");
-    let told = |result: Result<Mesh, MeshError>| match result {
+    let declined = |result: Result<Mesh, MeshError>| match result {
         Err(MeshError::Declined(reason)) => reason,
         other => panic!("{other:?}"),
     };
-    assert!(told(mesh_by("biting", &inside, &[("rule", "later")])).contains("use rule=earlier"));
+    assert!(declined(mesh_by("biting", &inside, &[("rule", "later")])).contains("use rule=earlier"));
     let steep = with_c_b(&inside, 3.1 * GEODESIC_T);
-    assert!(told(steep.mesh(&Biting::default())).contains("limit the spacing's gradient"));
+    assert!(declined(steep.mesh(&Biting::default())).contains("limit the spacing's gradient"));
     for mesher in ["quadtree-mis", "advancing-front"] {
-        assert!(told(mesh_by(mesher, &inside, &[])).contains("use lfs as spacing"));
+        assert!(declined(mesh_by(mesher, &inside, &[])).contains("use lfs as spacing"));
     }
     let [inside, plane] = [inside, case(&domain, "lfs")].map(|case| {
         let mesh = mesh_by("delaunay-refinement", &case, &[]).expect("a mesh");
@@ -147,7 +148,7 @@ fn what_is_not_proved_is_declined() {
     assert!(2 * inside < plane, "{inside} {plane}");
 }
 
-/// Constant, with distances measured inside the domain.
+/// A constant spacing with distances measured inside the domain.
 struct Constant(f64);
 
 impl Spacing for Constant {
@@ -164,7 +165,7 @@ impl Spacing for Constant {
     }
 }
 
-/// Circles of 0.35 around points of the left arm of two-arms hold all of the right arm, and reach nothing of it.
+/// Circles of radius 0.35 around points of the left arm of two-arms hold all of the right arm, and reach nothing of it.
 #[test]
 fn circles_on_one_arm_do_not_cover_the_other() {
     let domain = named("two-arms");
@@ -184,9 +185,9 @@ fn circles_on_one_arm_do_not_cover_the_other() {
     let plane = |size: f64, claim: Claim| check(constant(&domain, Uniform(size)), claim);
     let inside = |size: f64, claim: Claim| check(constant(&domain, Constant(size)), claim);
     assert!(plane(0.35, Claim::Coverage).holds && !inside(0.35, Claim::Coverage).holds);
-    // The two upper corners of the gap are 0.02 apart in the plane, and nobody minds inside.
+    // The two upper corners of the gap are 0.02 apart in the plane, which does not matter inside.
     assert!(!plane(0.1, Claim::PackingDisjoint).holds && !plane(0.1, Claim::NnVertexLower).holds);
-    // Those at its bottom are too near in both senses.
+    // The two at its bottom are too near in both senses.
     assert!(!inside(0.1, Claim::PackingDisjoint).holds && !inside(0.1, Claim::NnVertexLower).holds);
     assert!(plane(0.02, Claim::PackingDisjoint).holds && inside(0.02, Claim::PackingDisjoint).holds);
     for claim in [Claim::PackingDisjoint, Claim::NnVertexLower] {
@@ -208,7 +209,8 @@ fn the_judge_sees_what_is_too_coarse_or_too_dense() {
     assert!(holds(C_B, Claim::NnVertexLower) && !holds(1.4 * C_B, Claim::NnVertexLower));
 }
 
-/// A box with slots cut into it from above, each with its width, depth and lean: arms close outside, with corners of any angle.
+/// A box with slots cut into it from above, each with its width, depth and lean: arms that are close across the
+/// outside, with corners of any angle.
 fn slotted(slots: &[(f64, f64, f64)]) -> Option<Domain> {
     let width = slots.len() as f64 + 1.0;
     let mut points = vec![(0.0, 0.0), (width, 0.0), (width, 2.0)];

@@ -60,14 +60,14 @@ fn mesher(entry: &Entry) -> Box<dyn Mesher> {
     (entry.make)(&Parameters::new()).expect("defaults are valid")
 }
 
-/// The certificate holds, by every mesher, or what went wrong before or in it.
+/// For every mesher, either its mesh is certified or the error is returned; one error if there is no spacing.
 fn pressed(pslg: &Pslg) -> Vec<Result<(), String>> {
     let made = Domain::new(pslg.clone())
         .map_err(|error| error.to_string())
         .and_then(|domain| Case::new(domain, "lfs", T, C_B).map_err(|error| error.to_string()));
     let case = match made {
         Ok(case) => case,
-        Err(told) => return vec![Err(told)],
+        Err(error) => return vec![Err(error)],
     };
     let by = |entry: &Entry| {
         let mesher = mesher(entry);
@@ -85,15 +85,15 @@ fn pressed(pslg: &Pslg) -> Vec<Result<(), String>> {
 }
 
 fn all_certified(pslg: &Pslg, what: &str) {
-    for told in pressed(pslg) {
-        assert_eq!(told, Ok(()), "{what}");
+    for result in pressed(pslg) {
+        assert_eq!(result, Ok(()), "{what}");
     }
 }
 
-fn all_told(pslg: &Pslg, words: &str) {
-    for told in pressed(pslg) {
-        let is_told = matches!(&told, Err(text) if text.contains(words) && text.contains('('));
-        assert!(is_told, "{words}: {told:?}");
+fn all_refused(pslg: &Pslg, words: &str) {
+    for result in pressed(pslg) {
+        let is_refused = matches!(&result, Err(text) if text.contains(words) && text.contains('('));
+        assert!(is_refused, "{words}: {result:?}");
     }
 }
 
@@ -104,11 +104,11 @@ fn coordinates_from_a_millionth_of_a_millionth_to_a_million_millions() {
     }
 }
 
-/// Products of orientations vanished, so that segments far apart met.
+/// Products of orientations underflowed to 0, so segments far apart counted as meeting.
 #[test]
-fn coordinates_too_small_for_any_test_are_told() {
-    all_told(&house(1e-100, 0.0), "larger side is");
-    all_told(&house(1e100, 0.0), "1e60");
+fn coordinates_too_small_for_any_test_are_refused() {
+    all_refused(&house(1e-100, 0.0), "larger side is");
+    all_refused(&house(1e100, 0.0), "1e60");
 }
 
 /// Points on slanted segments are rounded to 1e-7: the area changed by more than its check allowed.
@@ -120,8 +120,8 @@ fn unit_features_at_an_offset_of_1e9() {
 
 /// The integral of 1 / lfs² never converged where features are noise.
 #[test]
-fn unit_features_at_an_offset_of_1e15_are_told() {
-    all_told(&house(1.0, 1e15), "too small to resolve");
+fn unit_features_at_an_offset_of_1e15_are_refused() {
+    all_refused(&house(1.0, 1e15), "too small to resolve");
 }
 
 const TOP: [(f64, f64); 3] = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
@@ -130,7 +130,7 @@ fn with_top(bottom: &[(f64, f64)]) -> Vec<(f64, f64)> {
     [bottom, &TOP].concat()
 }
 
-/// At 1e-9 packing circles are so small that their rounded centres are nearer than their radii say.
+/// At 1e-9 packing circles are so small that rounding brings their centres nearer than their radii allow.
 #[test]
 fn two_vertices_nearly_repeated() {
     for d in [1e-6, 1e-9, 1e-12] {
@@ -139,8 +139,8 @@ fn two_vertices_nearly_repeated() {
             &format!("{d:e}"),
         );
     }
-    all_told(&rings(&[&with_top(&[(0.0, 0.0), (0.5, 0.0), (0.5, 0.0)])]), "both at");
-    all_told(
+    all_refused(&rings(&[&with_top(&[(0.0, 0.0), (0.5, 0.0), (0.5, 0.0)])]), "both at");
+    all_refused(
         &rings(&[&with_top(&[(0.0, 0.0), (0.5, 0.0), (0.5 + 1e-15, 0.0)])]),
         "too small to resolve",
     );
@@ -159,11 +159,11 @@ fn a_hole_that_nearly_touches_a_side() {
     for d in [1e-6, 1e-9] {
         all_certified(&near(d), &format!("{d:e}"));
     }
-    // Told as "must be positive" before, and not at all at 1e-15.
+    // The error was "must be positive" before, and at 1e-15 there was none.
     for d in [1e-12, 1e-15] {
-        all_told(&near(d), "too small to resolve");
+        all_refused(&near(d), "too small to resolve");
     }
-    all_told(&near(0.0), "lies on");
+    all_refused(&near(0.0), "lies on");
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn a_hole_of_a_millionth_and_of_a_thousand_millionth() {
     }
 }
 
-/// Jumps from 0.1 to a smaller value, and denies it.
+/// A spacing that jumps from 0.1 to a smaller value, and returns a Lipschitz constant that denies it.
 struct Jump(f64);
 
 impl Spacing for Jump {
@@ -188,9 +188,9 @@ impl Spacing for Jump {
     }
 }
 
-/// Told where two vertices show it, with both points and values.
+/// Reported where two vertices show it, with both points and values.
 #[test]
-fn a_spacing_that_breaks_its_constant_is_told_with_both_points() {
+fn a_spacing_that_breaks_its_constant_is_reported_with_both_points() {
     let square = Domain::new(rings(&[&with_top(&[(0.0, 0.0)])])).expect("a valid domain");
     for entry in MESHERS {
         for value in [0.3, 0.03, 0.01] {
@@ -205,9 +205,9 @@ fn a_spacing_that_breaks_its_constant_is_told_with_both_points() {
     }
 }
 
-/// NaN, 0 and a negative on the right half.
+/// NaN, 0 and a negative value on the right half.
 #[test]
-fn a_spacing_that_is_no_length_is_told_with_the_place() {
+fn a_spacing_that_is_not_positive_is_reported_with_the_place() {
     let square = Domain::new(rings(&[&with_top(&[(0.0, 0.0)])])).expect("a valid domain");
     for entry in MESHERS {
         for bad in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
@@ -221,13 +221,13 @@ fn a_spacing_that_is_no_length_is_told_with_the_place() {
     }
 }
 
-/// spade's numbers end at 2e-43, which was told as "triangulation: TooSmall".
+/// The smallest number that spade takes is 2e-43; below that the error was "triangulation: TooSmall".
 #[test]
-fn coordinates_that_are_nearly_zero_are_told_with_line_and_remedy() {
-    all_told(&house(1e-60, 0.0), "larger side is");
+fn coordinates_that_are_nearly_zero_are_refused_with_line_and_remedy() {
+    all_refused(&house(1e-60, 0.0), "larger side is");
     let mut tilted = house(1.0, 0.0);
     tilted.vertices[0].y = 1e-50;
-    all_told(&tilted, "write 0");
+    all_refused(&tilted, "write 0");
     all_certified(&house(1e-20, 0.0), "1e-20");
     all_certified(&house(1e50, 0.0), "1e50");
 }

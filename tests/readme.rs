@@ -1,4 +1,4 @@
-//! The commands of README.md and docs/ run as written, sweeps as dry runs; links of all pages lead somewhere.
+//! The commands of README.md and docs/ run as written, sweeps as dry runs; links on all pages lead somewhere.
 
 use assert_cmd::Command;
 use std::ffi::OsStr;
@@ -53,8 +53,9 @@ fn pages(folder: &Path, deep: bool) -> Vec<PathBuf> {
     found
 }
 
-/// Runs the commands of a page: sweeps are planned, one statement is judged and figures are drawn in this checkout, whose
-/// files stay as they are; the others follow one another in a folder that holds the input files of `examples/`.
+/// Runs the commands of a page. Sweeps are planned, one statement is judged and figures are drawn in this checkout,
+/// whose files stay as they are. The other commands run one after another in a folder that has the input files of
+/// `examples/`.
 fn run_all(page: &Path) -> usize {
     let text = fs::read_to_string(page).expect("a page");
     let folder = tempfile::tempdir().expect("a folder");
@@ -125,7 +126,7 @@ fn the_readme_is_short() {
     assert!(lines <= 120, "README.md has {lines} lines; docs/ has room");
 }
 
-/// Words of a page in backquotes that are paths: of a folder here, or of what is in one.
+/// Words of a page in backquotes that are paths: a folder of this repository, or something in one.
 fn paths(page: &str) -> Vec<&str> {
     let words = page.split('`').skip(1).step_by(2);
     let is_path = |word: &&str| {

@@ -5,7 +5,7 @@ use biting::spacing::Spacing;
 
 /// f = scale (1 + ½ sin 20x sin 20y); |∇f| ≤ 10 scale.
 pub struct Waves {
-    /// Its mean.
+    /// The mean of f.
     pub scale: f64,
 }
 

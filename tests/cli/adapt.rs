@@ -18,15 +18,15 @@ fn a_mesh_is_adapted_and_its_field_is_the_spacing_of_the_next() {
         "3",
     ];
     let files = ["--out", "u.vtu", "--report", "r.json"];
-    let (told, _) = run(folder.path(), &[&asked[..], &files].concat(), 0);
-    assert!(told.contains("round") && told.contains("last mesh: "), "{told}");
+    let (out, _) = run(folder.path(), &[&asked[..], &files].concat(), 0);
+    assert!(out.contains("round") && out.contains("last mesh: "), "{out}");
     let text = fs::read_to_string(folder.path().join("r.json")).expect("a report");
     let report: Value = serde_json::from_str(&text).expect("JSON");
     let rounds = report["rounds"].as_array().expect("rounds");
     assert!((1..=3).contains(&rounds.len()) && report["certificate"]["holds"] == true);
     let relative = report["poisson"]["l2_error"].as_f64().expect("an error")
         / report["poisson"]["l2_norm"].as_f64().expect("a norm");
-    assert!(rounds[0]["l2_error"].as_f64().expect("an error") > relative, "{told}");
+    assert!(rounds[0]["l2_error"].as_f64().expect("an error") > relative, "{out}");
     run(
         folder.path(),
         &[
@@ -49,14 +49,14 @@ fn a_mesh_is_adapted_and_its_field_is_the_spacing_of_the_next() {
 #[test]
 fn what_cannot_be_adapted_is_bad_input() {
     let folder = folder();
-    for (option, value, told) in [
+    for (option, value, expected) in [
         ("--problem", "wave", "possible values: smooth, layer"),
         ("--eps=-1", "--sample", "-1"),
         ("--rounds", "0", "0 is not in"),
         ("--out", "mesh.xyz", "no format has this ending"),
     ] {
         let (_, error) = run(folder.path(), &["adapt", "unit-square", option, value], 2);
-        assert!(error.contains(told), "{error}");
+        assert!(error.contains(expected), "{error}");
     }
 }
 

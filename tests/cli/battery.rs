@@ -47,7 +47,7 @@ const FILES: &str = r#"
     c_b = [0.75]
 "#;
 
-/// The chunks of a file, without what may differ from run to run.
+/// The chunks of a file, without the parts that may differ from run to run.
 fn chunks(file: &Path) -> Vec<Value> {
     let text = fs::read_to_string(file).expect("chunks");
     let parse = |line: &str| {
@@ -130,15 +130,15 @@ fn a_family_without_files_is_skipped_and_not_passed() {
 }
 
 #[test]
-fn plans_that_are_no_battery_are_told() {
+fn plans_that_are_not_a_battery_are_refused() {
     let folder = folder();
-    for (wrong, told) in [
+    for (wrong, expected) in [
         (RANDOM.replace("domains = 3", ""), "say `domain`"),
         (RANDOM.replace("\"fan\"", "\"convex\""), "stands there twice"),
         (RANDOM.replace("t = [0.25]", "t = []"), "`t` is empty"),
     ] {
         plan(folder.path(), &wrong);
         let (_, err) = run(folder.path(), &["sweep", "try.toml"], 2);
-        assert!(err.contains(told), "{err}");
+        assert!(err.contains(expected), "{err}");
     }
 }

@@ -8,8 +8,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::time::{Duration, Instant};
 
-/// Stands for `python3`: makes a virtual environment whose `python` is this script too, installs nothing, and as an adapter does
-/// what FAKE says.
+/// A script in place of `python3`. It makes a virtual environment whose `python` is this script too, installs nothing,
+/// and as an adapter does what FAKE says.
 const PYTHON: &str = r#"#!/bin/sh
 case "$1 $2" in
 "-m venv") mkdir -p "$3/bin" && cp "$0" "$3/bin/python" ;;
@@ -122,7 +122,7 @@ fn a_peer_gets_the_request_and_its_mesh_is_judged() {
     assert_eq!(request["protocol"], 1);
     assert_eq!(request["parameters"]["angle"], 20);
     assert_eq!(request["parameters"]["passes"], 30, "defaults are passed too");
-    // lfs of the unit square caps f at 1 in its middle: no uniform size, so a field.
+    // lfs of the unit square caps f at 1 in its middle: the size is not uniform, so it is a field.
     assert_eq!(request["size"]["field"], "size.field");
     assert_eq!(request["size"]["scale"], 0.5);
     let row = row(folder.path(), "mesh");
@@ -151,8 +151,8 @@ fn what_goes_wrong_becomes_a_row_with_its_reason() {
     ] {
         assert_eq!(compare(folder.path(), fake, &[]).status.code(), Some(0), "{fake}");
         let row = row(folder.path(), fake);
-        let told = row["reason"].as_str().unwrap_or_default();
-        assert!(row["outcome"] == outcome && told.contains(reason), "{fake}: {row}");
+        let found = row["reason"].as_str().unwrap_or_default();
+        assert!(row["outcome"] == outcome && found.contains(reason), "{fake}: {row}");
         assert_eq!(
             row["report"].is_null(),
             fake != "turned",

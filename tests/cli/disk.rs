@@ -7,8 +7,8 @@ use std::process::{Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// The program where no file may grow beyond so many blocks of 512 bytes: to a process that ignores the signal, a disk
-/// that is full.
+/// Runs the program so that no file may grow beyond a given number of blocks of 512 bytes. To a process that ignores
+/// the signal, this is a full disk.
 fn on_a_full_disk(folder: &Path, blocks: u32, arguments: &[&str]) -> Output {
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"");
     Command::new("sh")
@@ -23,27 +23,30 @@ fn on_a_full_disk(folder: &Path, blocks: u32, arguments: &[&str]) -> Output {
 const SMALL: [&str; 4] = ["mesh", "unit-square", "--size", "0.06"];
 
 #[test]
-fn a_full_disk_is_told_and_leaves_the_old_file() {
+fn a_full_disk_is_reported_and_leaves_the_old_file() {
     for target in ["m.node", "m.vtu", "m.msh", "m.obj", "m.svg", "m.json", "m.png"] {
         let folder = folder();
         fs::write(folder.path().join(target), "old").expect("written");
         let output = on_a_full_disk(folder.path(), 2, &[&SMALL[..], &["--out", target]].concat());
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{target}: {told}");
-        assert!(told.contains(target) && !told.contains("panicked"), "{told}");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{target}: {message}");
+        assert!(message.contains(target) && !message.contains("panicked"), "{message}");
         assert_eq!(names(folder.path()), [target], "nothing is left beside it");
         assert_eq!(fs::read(folder.path().join(target)).expect("read"), b"old");
     }
 }
 
 #[test]
-fn a_sweep_on_a_full_disk_is_told_and_resumed() {
+fn a_sweep_on_a_full_disk_is_reported_and_resumed() {
     let folder = folder();
     fs::write(folder.path().join("try.toml"), plan("")).expect("written");
     let output = on_a_full_disk(folder.path(), 24, &["sweep", "try.toml", "--threads", "1"]);
-    let told = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{told}");
-    assert!(told.contains("rows.jsonl") && !told.contains("panicked"), "{told}");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("rows.jsonl") && !message.contains("panicked"),
+        "{message}"
+    );
     let (out, _) = run(folder.path(), &["sweep", "try.toml"], 0);
     assert!(out.contains("are done"), "rows from before are kept: {out}");
     let text = fs::read_to_string(folder.path().join("results/try/rows.jsonl")).expect("rows");
@@ -51,16 +54,16 @@ fn a_sweep_on_a_full_disk_is_told_and_resumed() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_is_told() {
+fn a_folder_that_cannot_be_is_reported() {
     let folder = folder();
     fs::write(folder.path().join("file"), "").expect("written");
     for more in [["--out", "file/below/m.node"], ["--report", "file/m.json"]] {
-        let (_, told) = run(folder.path(), &[&SMALL[..], &more[..]].concat(), 2);
-        assert!(told.contains(more[1]) || told.contains("file"), "{told}");
+        let (_, message) = run(folder.path(), &[&SMALL[..], &more[..]].concat(), 2);
+        assert!(message.contains(more[1]) || message.contains("file"), "{message}");
     }
     fs::write(folder.path().join("try.toml"), plan("")).expect("written");
-    let (_, told) = run(folder.path(), &["sweep", "try.toml", "--results", "file"], 2);
-    assert!(told.contains("file"), "{told}");
+    let (_, message) = run(folder.path(), &["sweep", "try.toml", "--results", "file"], 2);
+    assert!(message.contains("file"), "{message}");
     assert_eq!(names(folder.path()), ["file", "try.toml"]);
 }
 
@@ -81,7 +84,7 @@ fn a_kill_leaves_the_old_file_or_the_new_one() {
             .spawn()
             .expect("the program starts");
         sleep(Duration::from_millis(8 * moment));
-        // It may have been faster.
+        // The program may have been faster.
         let _ = mesh.kill();
         mesh.wait().expect("ended");
         let left = fs::read(&path).expect("read");
@@ -90,7 +93,7 @@ fn a_kill_leaves_the_old_file_or_the_new_one() {
 }
 
 #[test]
-fn a_second_sweep_into_one_folder_is_told() {
+fn a_second_sweep_into_one_folder_is_reported() {
     let folder = folder();
     fs::write(folder.path().join("try.toml"), plan("")).expect("written");
     let sweep = ["sweep", "try.toml", "--threads", "1"];
@@ -111,12 +114,12 @@ fn a_second_sweep_into_one_folder_is_told() {
         .expect("the program starts");
     let was_running = first.try_wait().expect("known").is_none();
     assert!(first.wait().expect("ended").success());
-    let told = String::from_utf8_lossy(&second.stderr);
+    let message = String::from_utf8_lossy(&second.stderr);
     if was_running {
-        assert_eq!(second.status.code(), Some(2), "{told}");
+        assert_eq!(second.status.code(), Some(2), "{message}");
         assert!(
-            told.contains("another sweep (process") && told.contains("--shard"),
-            "{told}"
+            message.contains("another sweep (process") && message.contains("--shard"),
+            "{message}"
         );
     }
     let text = fs::read_to_string(folder.path().join("results/try/rows.jsonl")).expect("rows");

@@ -1,5 +1,5 @@
-//! Bit-equal meshes by debug and release builds, whatever the number of threads: `tests/fingerprints.txt` is what the release
-//! build made (`.ci/fingerprints` writes it), and these tests hold the build they run in to it.
+//! Bit-equal meshes by debug and release builds, whatever the number of threads. `tests/fingerprints.txt` has the
+//! fingerprints of the release build (`.ci/fingerprints` writes it); these tests compare the build under test with it.
 
 use super::{folder, run};
 use biting::meshers::MESHERS;
@@ -25,7 +25,7 @@ fn meshes_are_those_of_the_release_build() {
     let folder = folder();
     let report = folder.path().join("report.json");
     for (number, (fingerprint, arguments)) in cases().enumerate() {
-        // Every case with one thread or with many, and the first of each mesher with both.
+        // Every case runs with one thread or with many, and the first of each mesher with both.
         let threads: &[&str] = match number % 5 {
             0 => &["1", "4"],
             odd if odd % 2 == 1 => &["3"],

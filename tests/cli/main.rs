@@ -21,7 +21,7 @@ fn biting(folder: &Path) -> Command {
     command
 }
 
-/// Runs, demands the exit status, and gives standard output and standard error.
+/// Runs the program, asserts its exit status, and returns standard output and standard error.
 fn run(folder: &Path, arguments: &[&str], status: i32) -> (String, String) {
     let output = biting(folder).args(arguments).output().expect("the program starts");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
@@ -55,7 +55,7 @@ fn one_figure_alone_is_four_files_and_the_table() {
 }
 
 #[test]
-fn bad_input_is_told_in_one_message_with_file_line_and_remedy() {
+fn bad_input_is_reported_in_one_message_with_file_line_and_remedy() {
     let folder = folder();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
     write("crossed.poly", CROSSED);
@@ -148,7 +148,7 @@ fn a_mesh_its_files_and_its_report() {
     }
     let (out, _) = run(folder.path(), &arguments, 0);
     for file in files.iter().chain(&["m.ele", "report.json"]) {
-        assert!(out.contains(&format!("wrote {file}")), "{file} is not told of: {out}");
+        assert!(out.contains(&format!("wrote {file}")), "{file} is not reported: {out}");
         assert!(
             fs::metadata(folder.path().join(file)).expect("written").len() > 0,
             "{file}"
@@ -245,12 +245,12 @@ fn equal_input_gives_equal_bytes() {
 fn a_domain_that_crosses_itself_is_mended_on_request() {
     let folder = folder();
     fs::write(folder.path().join("crossed.poly"), CROSSED).expect("written");
-    let (_, told) = run(
+    let (_, message) = run(
         folder.path(),
         &["mesh", "crossed.poly", "--repair", "--out", "m.node"],
         0,
     );
-    assert!(told.contains("repair of crossed"), "{told}");
+    assert!(message.contains("repair of crossed"), "{message}");
     run(folder.path(), &["check", "crossed.poly", "m.node"], 2);
     run(folder.path(), &["check", "crossed.poly", "m.node", "--repair"], 0);
 }
@@ -280,7 +280,7 @@ fn without_a_budget_no_mesh_is_begun_that_memory_cannot_hold() {
     );
 }
 
-/// Limiting that spacing takes many seconds; no mesher has been asked by then.
+/// Limiting that spacing takes many seconds, before any mesher runs.
 #[test]
 fn a_budget_is_noticed_while_the_spacing_is_made() {
     let folder = folder();

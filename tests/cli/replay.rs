@@ -23,13 +23,13 @@ fn a_replay_is_one_page() {
 }
 
 #[test]
-fn what_is_too_large_or_not_there_is_told() {
+fn what_is_too_large_or_not_there_is_refused() {
     let folder = folder();
     let fine = ["figures", "--replay", "unit-square", "--spacing", "uniform:0.001"];
     let (_, err) = run(folder.path(), &fine, 4);
     assert!(err.contains("20000"), "{err}");
     run(folder.path(), &["figures", "--replay", "nowhere"], 2);
-    // Without a replay these options would say nothing.
+    // Without a replay these options would have no effect.
     run(folder.path(), &["figures", "--t", "0.1"], 2);
     run(
         folder.path(),

@@ -13,7 +13,7 @@ fn planned(expectations: &str) -> tempfile::TempDir {
     folder
 }
 
-/// The rows, without what may differ from run to run.
+/// The rows, without the parts that may differ from run to run.
 fn rows(file: &Path) -> Vec<Value> {
     let text = fs::read_to_string(file).expect("rows");
     let parse = |line: &str| {
@@ -86,7 +86,7 @@ fn a_sweep_killed_for_real_is_resumed() {
             }
             std::thread::sleep(std::time::Duration::from_millis(1));
         }
-        // A sweep that was faster than the kill has done no worse.
+        // A sweep that was faster than the kill is as good.
         let _ = sweep.kill();
         sweep.wait().expect("ended");
     }
