@@ -104,7 +104,10 @@ pub(super) fn write_png(figure: &impl Figure, path: &Path) -> Drawn {
     )
 }
 
-/// `pixels` as a PNG of 256 colours: a fifth of the size of one of all colours, and the eye sees no difference.
+/// Colours of a PNG: a sixth of the size of one of all colours, and the eye sees no difference.
+const COLOURS: usize = 64;
+
+/// `pixels` as a PNG of [`COLOURS`].
 fn encoded(pixels: &[[u8; 3]], width: u32, height: u32) -> Drawn<Vec<u8>> {
     let (palette, indices) = indexed(pixels);
     let mut bytes = Vec::new();
@@ -121,7 +124,7 @@ fn encoded(pixels: &[[u8; 3]], width: u32, height: u32) -> Drawn<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The 256 most frequent colours, and for each pixel the index of the nearest of them.
+/// The [`COLOURS`] most frequent colours, and for each pixel the index of the nearest of them.
 fn indexed(pixels: &[[u8; 3]]) -> (Vec<[u8; 3]>, Vec<u8>) {
     let mut counts: BTreeMap<[u8; 3], usize> = BTreeMap::new();
     for pixel in pixels {
@@ -129,7 +132,7 @@ fn indexed(pixels: &[[u8; 3]]) -> (Vec<[u8; 3]>, Vec<u8>) {
     }
     let mut colours: Vec<([u8; 3], usize)> = counts.into_iter().collect();
     colours.sort_by_key(|(colour, count)| (std::cmp::Reverse(*count), *colour));
-    let palette: Vec<[u8; 3]> = colours.iter().take(256).map(|(colour, _)| *colour).collect();
+    let palette: Vec<[u8; 3]> = colours.iter().take(COLOURS).map(|(colour, _)| *colour).collect();
     let distance = |a: [u8; 3], b: [u8; 3]| (0..3).map(|k| u32::from(a[k].abs_diff(b[k])).pow(2)).sum::<u32>();
     let nearest = |colour: [u8; 3]| {
         (0..palette.len())
@@ -192,12 +195,13 @@ mod tests {
 
     #[test]
     fn rare_colours_become_their_nearest() {
-        let mut pixels: Vec<[u8; 3]> = (0..=255u8).flat_map(|value| [[value; 3]; 2]).collect();
+        let frequent = 2 * COLOURS;
+        let mut pixels: Vec<[u8; 3]> = (0..COLOURS as u8).flat_map(|value| [[value; 3]; 2]).collect();
         pixels.push([9, 9, 10]);
         let (palette, indices) = indexed(&pixels);
-        assert_eq!(palette.len(), 256);
-        assert_eq!(palette[indices[512] as usize], [9; 3]);
-        for (pixel, index) in pixels.iter().zip(&indices).take(512) {
+        assert_eq!(palette.len(), COLOURS);
+        assert_eq!(palette[indices[frequent] as usize], [9; 3]);
+        for (pixel, index) in pixels.iter().zip(&indices).take(frequent) {
             assert_eq!(palette[*index as usize], *pixel);
         }
     }

@@ -25,11 +25,12 @@ struct SideBySide<'a> {
     window: Rect,
 }
 
-/// Heights of the rows, and the width of the colour bar, in pixels.
+/// Width of the drawing, heights of its rows, and the width of the colour bar, in pixels.
 const HEAD: i32 = 36;
-const WHOLE: i32 = 520;
-const PART: i32 = 560;
-const HISTOGRAM: i32 = 300;
+const WIDTH: i32 = 960;
+const WHOLE: i32 = 400;
+const PART: i32 = 430;
+const HISTOGRAM: i32 = 280;
 const SIDE: i32 = 120;
 
 /// Radius of the ring around the place that is looked at, in pixels.
@@ -37,11 +38,11 @@ const MARK: i32 = 40;
 
 impl Figure for SideBySide<'_> {
     fn size(&self) -> (u32, u32) {
-        (1200, (HEAD + WHOLE + PART + HISTOGRAM) as u32)
+        (WIDTH as u32, (HEAD + WHOLE + PART + HISTOGRAM) as u32)
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
-        let (left, right) = area.split_horizontally((1200 - SIDE) * FINE);
+        let (left, right) = area.split_horizontally((WIDTH - SIDE) * FINE);
         let all: Vec<f64> = self.meshes.iter().flat_map(|(_, mesh)| shares(mesh)).collect();
         let most = all.iter().copied().fold(1.0, f64::max);
         // On a logarithmic axis, so that a single bad triangle shows.
@@ -91,7 +92,7 @@ fn shares(mesh: &Mesh) -> Vec<f64> {
 
 /// A window around a place, of the shape of the drawing, as wide as `width`.
 pub fn window(place: DVec2, width: f64) -> Rect {
-    let half = 0.5 * width * DVec2::new(1.0, f64::from(PART) / (0.5 * f64::from(1200 - SIDE)));
+    let half = 0.5 * width * DVec2::new(1.0, f64::from(PART) / (0.5 * f64::from(WIDTH - SIDE)));
     Rect {
         min: place - half,
         max: place + half,

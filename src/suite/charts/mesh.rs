@@ -22,7 +22,22 @@ const MOST_IN_SVG: usize = 20_000;
 /// # Errors
 /// [`ChartError`]; an SVG of more than 20 000 triangles is refused with the advice to draw a PNG.
 pub fn draw_mesh(mesh: &Mesh, path: &Path) -> Result<(), ChartError> {
-    let figure = Sheet { meshes: &[("", mesh)] };
+    let figure = Sheet {
+        meshes: &[("", mesh)],
+        width: WIDTH,
+    };
+    write(&figure, path)
+}
+
+/// The same, smaller: for a page of many.
+///
+/// # Errors
+/// As [`draw_mesh`].
+pub fn draw_small_mesh(mesh: &Mesh, path: &Path) -> Result<(), ChartError> {
+    let figure = Sheet {
+        meshes: &[("", mesh)],
+        width: SMALL_WIDTH,
+    };
     write(&figure, path)
 }
 
@@ -31,7 +46,7 @@ pub fn draw_mesh(mesh: &Mesh, path: &Path) -> Result<(), ChartError> {
 /// # Errors
 /// As [`draw_mesh`].
 pub fn draw_mesh_sheet(meshes: &[(&str, &Mesh)], path: &Path) -> Result<(), ChartError> {
-    write(&Sheet { meshes }, path)
+    write(&Sheet { meshes, width: WIDTH }, path)
 }
 
 fn write(figure: &Sheet, path: &Path) -> Result<(), ChartError> {
@@ -48,7 +63,12 @@ fn write(figure: &Sheet, path: &Path) -> Result<(), ChartError> {
 
 struct Sheet<'a> {
     meshes: &'a [(&'a str, &'a Mesh)],
+    width: u32,
 }
+
+/// Widths of drawings, in pixels.
+const WIDTH: u32 = 1200;
+const SMALL_WIDTH: u32 = 760;
 
 /// Room for the colour bar, in pixels.
 const SIDE: u32 = 120;
@@ -58,16 +78,16 @@ impl Figure for Sheet<'_> {
         match self.meshes {
             [(_, mesh)] => {
                 let size = Rect::around(mesh.points.iter().copied()).size();
-                let height = (1200 - SIDE) as f64 * size.y / size.x;
+                let height = (self.width - SIDE) as f64 * size.y / size.x;
                 // Also where a mesh is flat or has no points.
-                (1200, (height as u32).clamp(420, 1100))
+                (self.width, (height as u32).clamp(420, self.width - 100))
             }
             _ => (1200, 1080),
         }
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>) -> Drawn {
-        let (left, right) = area.split_horizontally((1200 - SIDE as i32) * FINE);
+        let (left, right) = area.split_horizontally((self.width - SIDE) as i32 * FINE);
         match self.meshes {
             [(_, mesh)] => draw(&left, mesh, bounds(mesh))?,
             meshes => {

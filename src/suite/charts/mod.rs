@@ -36,7 +36,7 @@ pub use fewest::fewest;
 pub use frontier::frontier;
 pub use histograms::{angles_by_method, angles_by_order, angles_by_t};
 pub use maps::spacing_maps;
-pub use mesh::{draw_mesh, draw_mesh_sheet};
+pub use mesh::{draw_mesh, draw_mesh_sheet, draw_small_mesh};
 pub use methods::{domains, methods, methods_against_t};
 pub use orders::orders;
 pub use oversampling::oversampling;

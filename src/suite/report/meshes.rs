@@ -7,7 +7,7 @@ use crate::meshers::{Budget, Request};
 use crate::suite::analysis::contest::Contest;
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
-use crate::suite::charts::{ChartError, draw_mesh, draw_mesh_sheet};
+use crate::suite::charts::{ChartError, draw_mesh_sheet, draw_small_mesh};
 use crate::suite::rows::numbers::first_seen;
 use crate::suite::rows::record::{Report, Row};
 use crate::suite::run::measure::{fingerprint, run};
@@ -42,7 +42,7 @@ pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), Chart
         let title = format!("Mesh of {}", report.domain);
         let caption = format!("`{}` with {}", report.domain, told(report));
         let name = format!("mesh-{}", file_name(&row.cell.domain));
-        draw_mesh(&mesh, &drawer.picture(&name, &title, &caption))?;
+        draw_small_mesh(&mesh, &drawer.picture(&name, &title, &caption))?;
         if SHEET.contains(&row.cell.domain.as_str()) {
             sheet.push((row.cell.domain.clone(), mesh));
         }
