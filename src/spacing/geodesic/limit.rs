@@ -258,11 +258,6 @@ impl GeodesicLimited {
         })
     }
 
-    /// Vertices and triangles of its mesh.
-    pub fn size(&self) -> (usize, usize) {
-        (self.values.len(), self.mesh.triangles.len())
-    }
-
     fn in_triangle(&self, t: usize, x: DVec2) -> f64 {
         let [a, b, c] = self.mesh.corners(t);
         let [u, v, w] = self.mesh.triangles[t].map(|k| self.values[k as usize]);

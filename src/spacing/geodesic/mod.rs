@@ -41,6 +41,7 @@ use std::sync::Arc;
 pub struct GeodesicLfs {
     reach: Reach,
     in_plane: Arc<Lfs>,
+    /// A lower bound on the whole domain: half the smallest value at a vertex.
     smallest: f64,
 }
 
@@ -71,11 +72,6 @@ impl GeodesicLfs {
             in_plane,
             smallest,
         })
-    }
-
-    /// A lower bound on the whole domain: half the smallest value at a vertex.
-    pub fn smallest(&self) -> f64 {
-        self.smallest
     }
 }
 

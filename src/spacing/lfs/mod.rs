@@ -134,11 +134,6 @@ impl Lfs {
     pub fn narrowest(&self) -> Narrowest {
         self.narrowest
     }
-
-    /// The number of nodes and of entries of the index.
-    pub fn index_size(&self) -> (usize, usize) {
-        self.lists.size()
-    }
 }
 
 impl Spacing for Lfs {
@@ -304,7 +299,7 @@ mod tests {
         let mut vertices = vec![DVec2::ZERO];
         vertices.extend((0..24).map(tip));
         let segments: Vec<[usize; 2]> = (1..=24).map(|k| [0, k]).collect();
-        let (nodes, entries) = Lfs::new(&vertices, &segments).unwrap().index_size();
+        let (nodes, entries) = Lfs::new(&vertices, &segments).unwrap().lists.size();
         assert!(
             (100..40_000).contains(&nodes) && (100..1_000_000).contains(&entries),
             "{nodes} nodes, {entries} entries"

@@ -308,6 +308,7 @@ impl Shortlists {
     }
 
     /// Number of tree nodes and of list entries: 8 and 4 bytes each.
+    #[cfg(test)]
     pub fn size(&self) -> (usize, usize) {
         (self.tree.nodes.len(), self.tree.lists.len())
     }
