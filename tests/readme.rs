@@ -137,6 +137,24 @@ fn paths(page: &str) -> Vec<&str> {
 }
 
 #[test]
+fn the_readme_has_five_short_findings() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("README.md");
+    let section = readme.split("\n## ").find(|part| part.starts_with("What came out"));
+    let findings: Vec<&str> = section
+        .expect("a section")
+        .lines()
+        .filter_map(|line| line.strip_prefix("* "))
+        .collect();
+    assert_eq!(findings.len(), 5, "{findings:?}");
+    for finding in findings {
+        let (sentence, link) = finding.split_once(" [").expect("a link to its page");
+        assert!(link.ends_with("/README.md)"), "{finding}");
+        let words = sentence.split_whitespace().count();
+        assert!(words <= 25, "{words} words: {sentence}");
+    }
+}
+
+#[test]
 fn the_architecture_names_what_is_there() {
     let page = fs::read_to_string(root().join("ARCHITECTURE.md")).expect("a page");
     let tree = block(&page, "```");

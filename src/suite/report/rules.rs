@@ -154,8 +154,17 @@ pub(super) fn text(results: &Results) -> String {
         return text;
     }
     let head = [&["at the"], &HEAD[3..4], &HEAD[6..]].concat();
-    "Over all orders, t and c_b; ratios are medians over the pairs.\n\n".to_owned() + &table(&head, &whole) + &text
+    PRIOR.to_owned()
+        + "Over all orders, t and c_b; ratios are medians over the pairs.\n\n"
+        + &table(&head, &whole)
+        + &text
 }
+
+/// Whose rules and bounds these are.
+const PRIOR: &str = "The two rules are known for random samplings: S. A. Mitchell, A. Rand, M. S. Ebeida, C. Bajaj, \"Variable \
+    radii Poisson-disk sampling\", CCCG 2012, call the paper's prior-disks and that of the later point current-disks, and have both \
+    angle bounds for domains without a boundary. New here are the boundary, the front, the constants and the hypotheses; the \
+    proof is in `src/meshers/biting/beyond/rule.rs`.\n\n";
 
 /// The last columns are those of [`numbers`], but for the two bounds.
 const HEAD: [&str; 14] = [
