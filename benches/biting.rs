@@ -9,7 +9,7 @@ mod waves;
 use biting::domain::gallery;
 use biting::meshers::biting::{Biting, Order};
 use biting::meshers::{Budget, Mesher, Request, Trace};
-use biting::suite::rows::numbers::{fit_line, median};
+use biting::suite::{fit_line, median};
 use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
 use peak_alloc::PeakAlloc;
 use spade::{DelaunayTriangulation, Point2, Triangulation};

@@ -10,7 +10,7 @@ mod waves;
 use biting::domain::{Domain, gallery};
 use biting::meshers::{Budget, Entry, MESHERS, Mesher, Parameters, Request, Trace};
 use biting::spacing::{Spacing, Uniform};
-use biting::suite::rows::numbers::median;
+use biting::suite::median;
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use std::time::{Duration, Instant};
 use waves::Waves;

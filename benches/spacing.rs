@@ -66,11 +66,7 @@ fn evaluations(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("evaluate");
     group.throughput(Throughput::Elements(points.len() as u64));
     group.bench_function("nearest-segment", |b| {
-        b.iter(|| {
-            evaluate(&points, |x| {
-                domain.index().nearest(x).map_or(0.0, |(_, distance)| distance)
-            })
-        });
+        b.iter(|| evaluate(&points, |x| domain.nearest_segment(x).1));
     });
     group.bench_function("lfs", |b| b.iter(|| evaluate(&points, |x| lfs.at(x))));
     group.bench_function("expression", |b| b.iter(|| evaluate(&points, |x| waves.at(x))));

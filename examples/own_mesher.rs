@@ -49,10 +49,7 @@ impl Greedy {
         for row in 0..=(extent.y / step) as usize {
             for column in 0..=(extent.x / step) as usize {
                 let x = bounds.min + step * DVec2::new(column as f64, row as f64);
-                let is_clear = domain
-                    .index()
-                    .nearest(x)
-                    .is_some_and(|(_, distance)| distance >= 0.6 * size(x));
+                let is_clear = domain.nearest_segment(x).1 >= 0.6 * size(x);
                 if is_clear && domain.contains(x) && points.iter().all(|kept| kept.distance(x) >= size(x)) {
                     points.push(x);
                 }

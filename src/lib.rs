@@ -57,6 +57,8 @@
 //! | `lfs`, `nsf`, `gns` | the same | local feature size, numerical spacing function, the smaller of the two |
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+// Private items have their pages with `cargo doc --document-private-items`.
+#![allow(rustdoc::private_intra_doc_links)]
 
 mod case;
 pub mod delaunay;

@@ -1,5 +1,5 @@
 //! Argument parsing only; each verb lives in `biting::suite::cli`.
 
 fn main() -> std::process::ExitCode {
-    biting::suite::cli::main()
+    biting::suite::main()
 }

@@ -1,20 +1,19 @@
 //! Readers of domains: what they read is validated, repaired where it is faulty, and located in.
 
-use biting::domain::files::{geojson as geojson_file, poly as poly_file};
-use biting::domain::{Domain, DomainError, Pslg, repair};
+use biting::domain::{Domain, DomainError, Pslg, parse_geojson, parse_poly, repair};
 
 /// A `.poly` file; after a zero byte the `.node` file beside it.
 pub fn poly(data: &[u8]) {
     let text = String::from_utf8_lossy(data);
     let (poly, node) = text.split_once('\0').unwrap_or((&text, ""));
-    check(poly_file::parse(poly, "fuzz.poly", || {
+    check(parse_poly(poly, "fuzz.poly", || {
         Ok((node.to_owned(), "fuzz.node".to_owned()))
     }));
 }
 
 /// A GeoJSON file.
 pub fn geojson(data: &[u8]) {
-    check(geojson_file::parse(&String::from_utf8_lossy(data), "fuzz.geojson"));
+    check(parse_geojson(&String::from_utf8_lossy(data), "fuzz.geojson"));
 }
 
 fn check(read: Result<Pslg, DomainError>) {

@@ -1,9 +1,7 @@
 //! Experiment plans and rows.
 
 use crate::scratch;
-use biting::suite::rows::journal::{Journal, Line, read_rows};
-use biting::suite::run::plan::Plan;
-use biting::suite::rows::record::Row;
+use biting::suite::{Journal, Line, Plan, Row, read_rows};
 
 /// A plan: its cells, whole and quick.
 pub fn plan(data: &[u8]) {

@@ -6,7 +6,7 @@ use crate::geometry::{DVec2, Rect};
 mod build;
 mod corners;
 mod error;
-pub mod files;
+mod files;
 pub mod gallery;
 mod locate;
 mod pslg;
@@ -16,10 +16,12 @@ mod subdivision;
 mod tests;
 mod validate;
 
-pub use corners::Wedge;
+pub(crate) use corners::Wedge;
 pub use error::{DomainError, Fault, FaultKind};
+pub use files::geojson::parse as parse_geojson;
+pub use files::poly::parse as parse_poly;
 pub use files::{load, read};
-pub use locate::Place;
+pub(crate) use locate::Place;
 pub use pslg::{Fill, InputSegment, Pslg, Region, Source};
 pub use repair::{RepairReport, repair};
 pub use validate::{LARGEST_COORDINATE, faults};
@@ -113,6 +115,12 @@ impl Domain {
         self.bounds
     }
 
+    /// The segment nearest to `x`, and how far it is.
+    pub fn nearest_segment(&self, x: DVec2) -> (usize, f64) {
+        let nearest = self.index.nearest(x);
+        nearest.unwrap_or((0, f64::INFINITY))
+    }
+
     /// Area of the inside faces.
     pub fn area(&self) -> f64 {
         self.area
@@ -135,7 +143,7 @@ impl Domain {
     }
 
     /// The spatial index of the segments, which returns indices into [`Domain::segments`].
-    pub fn index(&self) -> &SegmentIndex {
+    pub(crate) fn index(&self) -> &SegmentIndex {
         &self.index
     }
 

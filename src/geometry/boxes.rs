@@ -53,16 +53,6 @@ impl<T: Boxed> BoxTree<T> {
         tree
     }
 
-    /// How many things are indexed.
-    pub fn len(&self) -> usize {
-        self.items.len()
-    }
-
-    /// Whether nothing is indexed.
-    pub fn is_empty(&self) -> bool {
-        self.items.is_empty()
-    }
-
     fn split(&mut self, from: usize, to: usize) {
         let boxes = self.items[from..to].iter().map(|item| item.0.bounds());
         let bounds = Rect::around(boxes.flat_map(|rect| [rect.min, rect.max]));

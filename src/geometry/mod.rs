@@ -5,15 +5,15 @@
 pub(crate) mod boxes;
 pub(crate) mod interval;
 pub(crate) mod near;
-pub mod predicates;
+pub(crate) mod predicates;
 pub(crate) mod segment_grid;
 pub(crate) mod segments;
-pub mod tolerance;
+pub(crate) mod tolerance;
 
 pub use glam::DVec2;
 
 /// Counter-clockwise angle from `u` to `v` in (0, 2π], rounded: for measuring, not for deciding signs.
-pub fn turn(u: DVec2, v: DVec2) -> f64 {
+pub(crate) fn turn(u: DVec2, v: DVec2) -> f64 {
     let angle = u.perp_dot(v).atan2(u.dot(v));
     if angle > 0.0 {
         angle

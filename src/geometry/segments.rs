@@ -61,16 +61,6 @@ impl SegmentIndex {
         Self { tree }
     }
 
-    /// How many segments are indexed.
-    pub fn len(&self) -> usize {
-        self.tree.len()
-    }
-
-    /// Whether no segment is indexed.
-    pub fn is_empty(&self) -> bool {
-        self.tree.is_empty()
-    }
-
     /// Calls `visit` with every segment that meets the closed box, decided exactly; in no particular order.
     pub fn in_box(&self, bounds: Rect, visit: impl FnMut(usize)) {
         let mut visit = visit;

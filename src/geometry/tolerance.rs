@@ -1,4 +1,4 @@
-//! Every tolerance of the project, each relative to a length named in its comment, each with its reason.
+//! Every tolerance of the library, each relative to a length named in its comment, each with its reason.
 
 /// Certificate: biting circles are enlarged, and packing circles shrunk, by this share of their radius. Centres are
 /// intersections of circles, computed to a few ulp of the coordinates; 1e-9 is enough for that down to circles of a

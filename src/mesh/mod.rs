@@ -3,7 +3,8 @@
 mod adjacency;
 pub mod files;
 
-pub use adjacency::{Adjacency, Edge, Lists, NONE};
+pub(crate) use adjacency::Lists;
+pub use adjacency::{Adjacency, Edge, NONE};
 
 use crate::domain::Domain;
 use crate::geometry::DVec2;

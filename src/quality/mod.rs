@@ -91,7 +91,7 @@ mod gaps;
 mod parallel;
 mod protection;
 mod reached;
-mod shape;
+pub(crate) mod shape;
 mod spread;
 mod statistics;
 mod structure;
@@ -99,8 +99,6 @@ mod subject;
 mod tally;
 #[cfg(test)]
 mod tests;
-
-pub use shape::{angles_deg, circumcentre};
 
 use crate::domain::Domain;
 use crate::mesh::Mesh;

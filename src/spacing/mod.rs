@@ -38,13 +38,14 @@ pub use expression::grammar::GrammarError;
 pub use expression::hessian::{Hessian, Tolerance};
 pub use from_mesh::field::{Nodal, recovered_eigenvalues};
 pub use from_mesh::measures::{EdgeLength, NearestNeighbour};
-pub use geodesic::{GeodesicLfs, GeodesicLimited};
+
+pub use geodesic::GeodesicLfs;
 pub use integral::{Integral, estimate_triangles, integrate};
-pub use lfs::{Lfs, Narrowest};
+pub use lfs::Lfs;
 pub use limit::envelope::of_samples;
 pub use limit::limit;
 pub use limit::limited::Limited;
-pub use spec::ingredients::Ingredients;
+pub(crate) use spec::ingredients::Ingredients;
 pub use spec::{KINDS, Spec, spec_for_size};
 pub use uniform::Uniform;
 

@@ -149,14 +149,6 @@ fn the_closest_point_is_an_end_or_the_foot() {
 }
 
 #[test]
-fn an_index_counts_its_segments() {
-    for count in [0, 1, 9] {
-        let index = SegmentIndex::new(vec![[DVec2::ZERO, DVec2::X]; count]);
-        assert_eq!((index.len(), index.is_empty()), (count, count == 0));
-    }
-}
-
-#[test]
 fn a_segment_whose_box_is_flat_is_hit() {
     for ends in [[(5.0, -1.0), (5.0, 3.0)], [(4.0, 1.0), (1.0, 1.0)]] {
         let index = SegmentIndex::new([ends.map(DVec2::from)]);

@@ -53,9 +53,6 @@
 //! heap, ideal point and clamps; R. Löhner, P. Parikh (1988), and P. L. George, E. Seveno (1994), for the searches and for what
 //! is done when they fail; T. D. Blacker, M. B. Stephenson, "Paving" (1991), for the rows.
 
-// The steps are private; their links work in `cargo doc --document-private-items`.
-#![allow(rustdoc::private_intra_doc_links)]
-
 mod advance;
 mod attempt;
 mod boundary;

@@ -63,9 +63,6 @@
 //! Rand, M. S. Ebeida, C. Bajaj, "Variable radii Poisson-disk sampling", CCCG 2012, who call the rule current-disks and
 //! prove the bound (1 − t) / 2 for domains without a boundary.
 
-// The steps are private; their links work in `cargo doc --document-private-items`.
-#![allow(rustdoc::private_intra_doc_links)]
-
 pub mod beyond;
 mod boundary;
 mod front;

@@ -186,7 +186,7 @@ fn angles_and_degrees(mesh: &Mesh) -> (f64, Vec<usize>) {
     let mut degrees = vec![0; mesh.input_vertices];
     let mut smallest = f64::INFINITY;
     for (t, triangle) in mesh.triangles.iter().enumerate() {
-        let angles = crate::quality::angles_deg(mesh.corners(t));
+        let angles = crate::quality::shape::angles_deg(mesh.corners(t));
         smallest = angles.into_iter().fold(smallest, f64::min);
         let inputs = triangle.iter().filter(|k| (**k as usize) < mesh.input_vertices);
         inputs.for_each(|&k| degrees[k as usize] += 1);

@@ -55,9 +55,6 @@
 //! Algorithms Work", 2005. A. Üngör, "Off-centers: A New Type of Steiner Points for Computing Size-Optimal
 //! Quality-Guaranteed Delaunay Triangulations", 2009.
 
-// The steps are private; their links work in `cargo doc --document-private-items`.
-#![allow(rustdoc::private_intra_doc_links)]
-
 mod insert;
 mod pieces;
 mod queue;

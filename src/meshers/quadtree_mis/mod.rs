@@ -52,9 +52,6 @@
 //! Generation, Formulation, and Partition", STOC 1995; the same with H. Wang, "Control Volume Meshes Using Sphere
 //! Packing: Generation, Refinement and Coarsening", 5th International Meshing Roundtable, 1996.
 
-// The steps are private; their links work in `cargo doc --document-private-items`.
-#![allow(rustdoc::private_intra_doc_links)]
-
 mod balance;
 mod circles;
 mod complete;

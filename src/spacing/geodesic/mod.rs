@@ -27,7 +27,7 @@ mod slopes;
 #[cfg(test)]
 mod tests;
 
-pub use limit::{GeodesicLimited, limit};
+pub use limit::limit;
 
 use crate::delaunay::Reach;
 use crate::domain::Domain;

@@ -57,7 +57,7 @@ const LISTED_UP_TO: f64 = 0.4;
 /// A function at most `function` on Ω, at least `factor` of the largest α-Lipschitz one below it, and α-Lipschitz.
 ///
 /// If α ≥ λ, the constant of `function` itself, this is `function`; if α ≥ factor · λ it is (α / λ) · `function`;
-/// otherwise it is a [`Limited`], or a [`geodesic::GeodesicLimited`] if distances are measured inside the domain.
+/// otherwise it is a [`Limited`], or a `GeodesicLimited` if distances are measured inside the domain.
 ///
 /// # Errors
 /// [`SpacingError::NotPositive`] if `function` is not positive on Ω, [`SpacingError::Unresolved`] if it is too small

@@ -18,6 +18,7 @@ pub struct Ingredients {
     /// What geometry alone asks for, which f is nowhere above; absent if f is not capped.
     pub lfs: Option<Arc<dyn Spacing>>,
     /// What is asked for besides lfs, if anything is.
+    #[cfg_attr(not(feature = "suite"), expect(dead_code, reason = "the suite alone draws it"))]
     pub nsf: Option<Arc<dyn Spacing>>,
     /// The smaller of the two.
     pub gns: Arc<dyn Spacing>,

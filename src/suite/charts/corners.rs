@@ -6,7 +6,7 @@ use super::panel::{Axis, Panel};
 use super::style::{self, INK, TITLE};
 use crate::geometry::{DVec2, Rect};
 use crate::mesh::Mesh;
-use crate::quality::angles_deg;
+use crate::quality::shape::angles_deg;
 use plotters::prelude::{Circle, DrawingBackend, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 use std::path::Path;

@@ -5,7 +5,7 @@ use super::legend::colour_bar;
 use super::style::{self, INK, SMALL, TITLE};
 use crate::geometry::{DVec2, Rect};
 use crate::mesh::Mesh;
-use crate::quality::angles_deg;
+use crate::quality::shape::angles_deg;
 use plotters::prelude::{Color, DrawingBackend, PathElement, Polygon, RGBColor, Text};
 use plotters::style::text_anchor::{HPos, VPos};
 use std::collections::BTreeMap;

@@ -2,12 +2,12 @@
 
 use super::drawing::{self, Drawing, Numbers, Picture};
 use super::run::{Run, short};
+use super::tolerance::PULLED_IN;
 use crate::geometry::DVec2;
 use crate::geometry::near::Disc;
 use crate::geometry::predicates::{Meeting, in_circle, orient2d, segments_meet};
-use crate::quality::{angles_deg, circumcentre};
+use crate::quality::shape::{angles_deg, circumcentre};
 use crate::suite::charts::scene::{Fill, Mark, Pen, Scene, Sheet};
-use crate::suite::tolerance::PULLED_IN;
 
 /// A triangle whose circumcentre lies outside it.
 #[derive(Clone, Copy, Debug)]

@@ -4,12 +4,12 @@
 //! Recomputed from domain and circles by comparing every pair, apart from the mesher's own front, which keeps vertices alone
 //! and none before the boundary is covered.
 
+use super::tolerance::NOTHING;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::near::{Disc, Near, circle_intersections};
 use crate::geometry::tolerance::COVERED;
 use crate::suite::charts::scene::Arc;
-use crate::suite::tolerance::NOTHING;
 use std::f64::consts::TAU;
 
 /// Whether `disc` covers `point`.

@@ -1,10 +1,10 @@
 //! Which circles the paper's labels name: p₁ of B(p₁), p₁ and p₂ of M(p₁, p₂) (§6.2).
 
+use super::tolerance::ON_CIRCLE as ON;
 use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::geometry::segments::closest_on_segment;
 use crate::meshers::{Bite, Reason};
-use crate::suite::tolerance::ON_CIRCLE as ON;
 
 /// The label of a bite of edge protection.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,6 +17,7 @@ mod run;
 mod study;
 #[cfg(test)]
 mod tests;
+pub(crate) mod tolerance;
 
 use crate::suite::analysis::results::Results;
 use crate::suite::files::write_whole;

@@ -8,7 +8,7 @@ use crate::domain::{self, Domain};
 use crate::geometry::DVec2;
 use crate::mesh::Mesh;
 use crate::meshers::{MESHERS, Parameters};
-use crate::quality::angles_deg;
+use crate::quality::shape::angles_deg;
 use crate::spacing::{self, Ingredients, Options, Spacing, Spec, lfs_of};
 use crate::suite::analysis::measures::SIZE_RATIO;
 use crate::suite::analysis::results::Results;

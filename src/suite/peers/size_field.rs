@@ -72,25 +72,6 @@ impl SizeField {
         tree.with_values(spacing, domain)
     }
 
-    /// The interpolated value at `x`; outside the root square that of the nearest point in it.
-    pub fn at(&self, x: DVec2) -> f64 {
-        let size = self.root.size();
-        let mut p = ((x - self.root.min) / size).clamp(DVec2::ZERO, DVec2::ONE);
-        let mut cell = 0;
-        while self.children[cell] != NONE {
-            p *= 2.0;
-            let (right, above) = (p.x >= 1.0, p.y >= 1.0);
-            p -= DVec2::new(f64::from(right), f64::from(above));
-            cell = self.children[cell] as usize + usize::from(right) + 2 * usize::from(above);
-        }
-        bilinear(self.corners[cell], p)
-    }
-
-    /// How many cells the tree has, leaves and others.
-    pub fn cells(&self) -> usize {
-        self.children.len()
-    }
-
     /// The file of `baselines/PROTOCOL.md`.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
@@ -301,6 +282,22 @@ mod tests {
     use crate::domain::load;
     use crate::spacing::{Options, build};
 
+    impl SizeField {
+        /// The interpolated value at `x`; outside the root square that of the nearest point in it.
+        fn at(&self, x: DVec2) -> f64 {
+            let size = self.root.size();
+            let mut p = ((x - self.root.min) / size).clamp(DVec2::ZERO, DVec2::ONE);
+            let mut cell = 0;
+            while self.children[cell] != NONE {
+                p *= 2.0;
+                let (right, above) = (p.x >= 1.0, p.y >= 1.0);
+                p -= DVec2::new(f64::from(right), f64::from(above));
+                cell = self.children[cell] as usize + usize::from(right) + 2 * usize::from(above);
+            }
+            bilinear(self.corners[cell], p)
+        }
+    }
+
     fn sampled(name: &str, spec: &str, error: f64) -> (Domain, std::sync::Arc<dyn Spacing>, SizeField) {
         let domain = load(name).expect("a gallery domain");
         let built = build(spec, &domain, &Options::with_alpha(0.4))
@@ -367,7 +364,7 @@ mod tests {
     #[test]
     fn a_uniform_spacing_is_one_cell_and_its_file_is_as_the_protocol_says() {
         let (_, _, field) = sampled("unit-square", "uniform:0.125", 0.02);
-        assert_eq!(field.cells(), 1);
+        assert_eq!(field.children.len(), 1);
         let mut expected = b"BITFIELD".to_vec();
         for number in [0.0f64, 0.0, 1.0] {
             expected.extend(number.to_le_bytes());

@@ -10,9 +10,6 @@
 //!   effects), `words.js` (that in words), `layers.js` and `drawing.js` (the picture), `pointer.js`, `panel.js` and
 //!   `controls.js` are joined to one file that needs no other.
 
-// The parts are private; their links work in `cargo doc --document-private-items`.
-#![allow(rustdoc::private_intra_doc_links)]
-
 mod outline;
 mod record;
 #[cfg(test)]

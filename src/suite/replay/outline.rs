@@ -5,7 +5,7 @@ use crate::geometry::DVec2;
 use crate::geometry::segments::closest_on_segment;
 use crate::mesh::Mesh;
 use crate::meshers::{Bite, Reason};
-use crate::suite::tolerance::ON_SIDE;
+use crate::suite::figures::tolerance::ON_SIDE;
 use std::collections::BTreeMap;
 
 /// The boundary as closed rings of input vertices: filled by the even-odd rule, they are the domain.
