@@ -6,7 +6,6 @@ use std::fs;
 use std::path::Path;
 
 mod adapt;
-mod battery;
 #[cfg(unix)]
 mod compare;
 #[cfg(unix)]
@@ -14,6 +13,7 @@ mod disk;
 mod fingerprints;
 mod replay;
 mod sweep;
+mod tally;
 
 fn biting(folder: &Path) -> Command {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("biting");

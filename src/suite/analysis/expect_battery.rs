@@ -2,9 +2,9 @@
 
 use crate::suite::analysis::expect::Finding;
 use crate::suite::rows::numbers::first_seen;
-use crate::suite::run::battery::chunk::{Chunk, Tally};
-use crate::suite::run::battery::trial::Verdict;
 use crate::suite::run::plan::Expectations;
+use crate::suite::run::tally::chunk::{Chunk, Tally};
+use crate::suite::run::tally::trial::Verdict;
 
 /// At most so many commands are named; the chunks have them.
 const NAMED: usize = 3;
@@ -62,12 +62,9 @@ fn counted(chunks: &[Chunk], verdict: Verdict, most: u64, what: &str) -> Finding
     let tallies = || chunks.iter().flat_map(|chunk| &chunk.tallies);
     let count: u64 = tallies().map(|tally| tally.count(verdict)).sum();
     let tried: u64 = tallies().map(Tally::tried).sum();
-    let reasons = chunks.iter().flat_map(|chunk| &chunk.reasons);
-    let commands = reasons.filter(|reason| reason.verdict == verdict);
-    let named: Vec<String> = commands
-        .take(NAMED)
-        .map(|reason| format!("`{}`", reason.example))
-        .collect();
+    let uncertified = chunks.iter().flat_map(|chunk| &chunk.uncertified);
+    let commands = uncertified.filter(|case| case.verdict == verdict);
+    let named: Vec<String> = commands.take(NAMED).map(|case| format!("`{}`", case.command)).collect();
     let found = format!("{count} of {tried} {}", named.join(", "));
     Finding {
         expected: format!("at most {most} cases: a case {what}"),

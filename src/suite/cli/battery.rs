@@ -8,13 +8,13 @@ use crate::suite::analysis::results::PLAN;
 use crate::suite::files::write_whole;
 use crate::suite::rows::journal::Journal;
 use crate::suite::rows::machine;
-use crate::suite::run::battery::CHUNKS;
-use crate::suite::run::battery::campaign::{Campaign, Watch};
-use crate::suite::run::battery::chunk::{Chunk, Tally};
-use crate::suite::run::battery::family::{Family, Part};
-use crate::suite::run::battery::trial::Verdict;
-use crate::suite::run::battery::worker;
 use crate::suite::run::plan::Plan;
+use crate::suite::run::tally::CHUNKS;
+use crate::suite::run::tally::campaign::{Campaign, Watch};
+use crate::suite::run::tally::chunk::{Chunk, Tally};
+use crate::suite::run::tally::family::{Family, Part};
+use crate::suite::run::tally::trial::Verdict;
+use crate::suite::run::tally::worker;
 use crate::suite::run::work::Shard;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -45,7 +45,7 @@ pub fn work() -> Outcome {
 
 /// Runs what has no line yet, then writes the page and tells what was expected.
 pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
-    let families = Family::all(&plan.batteries, plan.budget);
+    let families = Family::all(plan);
     for family in &families {
         family
             .check()
@@ -113,7 +113,7 @@ pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
 
 /// The keys of all chunks of a plan.
 pub fn keys(plan: &Plan) -> Vec<String> {
-    let families = Family::all(&plan.batteries, plan.budget);
+    let families = Family::all(plan);
     families.iter().flat_map(Family::chunks).map(|part| part.key).collect()
 }
 
@@ -168,13 +168,9 @@ impl Watch for Progress {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.chunks += 1;
         chunk.tallies.iter().for_each(|tally| state.all.add(tally));
-        for reason in &chunk.reasons {
-            if matches!(reason.verdict, Verdict::Panicked | Verdict::Hung | Verdict::Invalid) {
-                let verdict = reason.verdict;
-                say_aside(format_args!(
-                    "{verdict:?}: {} cases, such as {}: {}",
-                    reason.count, reason.example, reason.kind
-                ));
+        for case in &chunk.uncertified {
+            if matches!(case.verdict, Verdict::Panicked | Verdict::Hung | Verdict::Invalid) {
+                say_aside(format_args!("{:?}: {}: {}", case.verdict, case.command, case.reason));
             }
         }
         if state.chunks == self.of || state.last_line.is_none_or(|last| last.elapsed() >= LINE_EVERY) {

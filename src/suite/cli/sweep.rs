@@ -13,11 +13,11 @@ use crate::suite::files::write_whole;
 use crate::suite::rows::journal::{Journal, Record};
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{self, Cell, Provenance, Row};
-use crate::suite::run::battery::CHUNKS;
 use crate::suite::run::measure;
 use crate::suite::run::plan::{Plan, PlannedCell};
 use crate::suite::run::prepare::Store;
 use crate::suite::run::runner::{self, Sweep};
+use crate::suite::run::tally::CHUNKS;
 use crate::suite::run::work::{self, Shard, Task};
 use std::path::{Path, PathBuf};
 
@@ -107,7 +107,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let plan = arguments.place.plan(DEFAULT)?;
     let folder = arguments.place.folder(&plan);
-    if plan.batteries.is_empty() {
+    if plan.tallied().next().is_none() {
         run_cells(&plan, &folder, &arguments.how, arguments.shard, |_| true)
     } else {
         battery::run(&plan, &folder, &arguments.of_battery())
@@ -298,7 +298,7 @@ fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -
 }
 
 fn merge(plan: &Plan, folder: &Path) -> Outcome {
-    if plan.batteries.is_empty() {
+    if plan.tallied().next().is_none() {
         let cells = plan.cells().map_err(Failure::input)?;
         let keys: Vec<String> = cells.into_iter().map(|planned| planned.key).collect();
         finish(plan, folder, join(folder, record::ROWS, &keys)?)

@@ -2,7 +2,7 @@
 
 use super::Entry;
 use super::drawing::Drawing;
-use crate::suite::run::battery::family::fingerprint;
+use crate::suite::rows::hash::fnv;
 use serde_json::Value;
 
 /// The command that draws a figure.
@@ -12,7 +12,7 @@ fn command(entry: &Entry) -> String {
 
 /// A hash of a value's text, in hexadecimal.
 pub(super) fn hash(value: &Value) -> String {
-    format!("{:016x}", fingerprint(&value.to_string()))
+    format!("{:016x}", fnv(&value.to_string()))
 }
 
 /// The caption file of a figure.

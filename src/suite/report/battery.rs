@@ -4,9 +4,9 @@ use super::markdown::{number, plain, table};
 use super::page::bullets;
 use crate::suite::analysis::expect_battery::{self, by_method, sums};
 use crate::suite::rows::numbers::first_seen;
-use crate::suite::run::battery::chunk::{Chunk, Reason, Tally};
-use crate::suite::run::battery::trial::Verdict;
 use crate::suite::run::plan::{Expectations, Plan};
+use crate::suite::run::tally::chunk::{Chunk, Tally};
+use crate::suite::run::tally::trial::Verdict;
 
 /// Most reasons a table has.
 const MOST_REASONS: usize = 40;
@@ -224,16 +224,33 @@ fn shares(chunks: &[Chunk]) -> String {
     "## Declined + stopped, of valid domains\n\n".to_owned() + &table(&head, &lines.collect::<Vec<_>>())
 }
 
+/// A kind of reason, and how often it was given.
+struct Reason<'a> {
+    method: &'a str,
+    verdict: Verdict,
+    /// Its numbers and names replaced by `#`.
+    kind: String,
+    count: u64,
+    /// The command of the first of them.
+    example: &'a str,
+}
+
 /// Why cases are not certified, the gravest and commonest first, each with a command that shows it.
 fn reasons(chunks: &[Chunk]) -> String {
     let mut all: Vec<Reason> = Vec::new();
-    for reason in chunks.iter().flat_map(|chunk| &chunk.reasons) {
-        let same = |known: &&mut Reason| {
-            (&known.method, known.verdict, &known.kind) == (&reason.method, reason.verdict, &reason.kind)
-        };
+    for case in chunks.iter().flat_map(|chunk| &chunk.uncertified) {
+        let kind = case.kind();
+        let same =
+            |known: &&mut Reason| (known.method, known.verdict, &known.kind) == (&*case.method, case.verdict, &kind);
         match all.iter_mut().find(same) {
-            Some(known) => known.count += reason.count,
-            None => all.push(reason.clone()),
+            Some(known) => known.count += 1,
+            None => all.push(Reason {
+                method: &case.method,
+                verdict: case.verdict,
+                kind,
+                count: 1,
+                example: &case.command,
+            }),
         }
     }
     if all.is_empty() {
@@ -245,7 +262,7 @@ fn reasons(chunks: &[Chunk]) -> String {
         vec![
             verdict.map_or("", |(_, title)| title).to_owned(),
             reason.count.to_string(),
-            reason.method.clone(),
+            reason.method.to_owned(),
             reason.kind.clone(),
             format!("`{}`", reason.example),
         ]
@@ -263,19 +280,21 @@ fn reasons(chunks: &[Chunk]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::suite::run::tally::chunk::Uncertified;
     use std::collections::BTreeMap;
 
     fn chunk(family: &str, method: &str, cases: &[(Verdict, u64)], kind: &str) -> Chunk {
         let mut chunk = Chunk::new(family, family, vec![method.into()]);
         chunk.tallies[0].cases = BTreeMap::from_iter(cases.iter().copied());
         chunk.discarded = 2;
-        chunk.reasons.push(Reason {
+        let one = Uncertified {
             method: method.into(),
             verdict: Verdict::Declined,
-            kind: kind.into(),
-            count: cases[1].1,
-            example: format!("biting mesh {family}"),
-        });
+            domain: family.into(),
+            reason: kind.into(),
+            command: format!("biting mesh {family}"),
+        };
+        chunk.uncertified = vec![one; cases[1].1 as usize];
         chunk
     }
 
@@ -303,7 +322,7 @@ mod tests {
         ];
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("robustness.toml");
-        let text = "question = \"What breaks?\"\n[expect]\ndeclined_share = 0.2\n[[battery]]\nfamilies = [\"fan\"]\nfolder = \"x\"\n\
+        let text = "question = \"What breaks?\"\n[expect]\ndeclined_share = 0.2\n[[group]]\nname = \"hard\"\ntally = { families = [\"fan\"] }\ndomains = [\"x\"]\n\
                     methods = [{ mesher = \"biting\" }]\nspacings = [\"lfs\"]\nt = [0.25]\nc_b = [0.5]\n";
         std::fs::write(&file, text).expect("written");
         let page = page(&chunks, &Plan::read(&file).expect("a plan"), "robustness");

@@ -82,6 +82,7 @@ impl Entry {
                 oversampling::charts,
             ),
             Section::Certificate => Self::new("Certificate", certificate::findings, certificate::text, no_charts),
+            Section::Tally => Self::new("Cases", no_findings, |_| String::new(), no_charts),
             Section::Meshes => Self::new("Meshes", no_findings, meshes::text, meshes::charts),
         }
     }

@@ -1,6 +1,7 @@
 //! What an experiment leaves: records, the journal of a run in progress, and what made them.
 
 pub mod adapted;
+pub mod hash;
 pub mod journal;
 pub mod machine;
 pub mod numbers;

@@ -40,7 +40,7 @@
 //!
 //! [`Section`] has the sections there are.
 //!
-//! Another kind of experiment has batteries in place of groups: many small cases, tallied ([`Battery`]).
+//! A group may be tallied: many small cases, of which only those that are not certified leave a line ([`Tallied`]).
 //!
 //! ```toml
 //! [expect]                       # what counts there
@@ -50,32 +50,32 @@
 //! declined_share = 0.01          # of a mesher's valid domains
 //! skipped_families = 0           # those whose files are not there
 //!
-//! [[battery]]                    # each domain by every method, with a spacing, t and c_b drawn for each mesh
-//! families = ["fan", "slits"]
-//! domain = "random-pslg:kind={family},seed={seed}"   # or folder = "out/outlines/{family}", fetch = "the command"
-//! domains = 1000                 # of each family
+//! [[group]]                      # each domain by every method, with a spacing, t and c_b drawn for each mesh
+//! name = "drawn"
+//! tally = { families = ["fan", "slits"], draws = 1000 }        # or fetch = "the command", for domains that are folders
+//! domains = ["random-pslg:kind={family},seed={seed}"]          # or ["out/outlines/{family}"]
 //! methods = [{ mesher = "biting" }]
 //! spacings = ["lfs"]
 //! t = [0.25, "1/3"]
 //! c_b = [0.5]
-//! quick = { domains = 4 }
+//! quick = { draws = 4 }
 //! ```
 
-mod battery;
 mod group;
 mod number;
 mod section;
+mod tally;
 #[cfg(test)]
 mod tests;
 
-pub use battery::Battery;
 pub use group::{Group, Method};
 pub use number::{Number, fraction};
 pub use section::Section;
+pub use tally::Tallied;
 
 use crate::suite::rows::numbers::first_seen;
 use crate::suite::rows::record::Cell;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -113,14 +113,12 @@ pub struct Plan {
     pub budget: CellBudget,
     /// What must come out.
     pub expect: Expectations,
-    /// Groups of cells, in the order of the rows.
+    /// Groups of cells, in the order of the rows, and groups that are tallied.
     pub groups: Vec<Group>,
-    /// Batteries of cases; a plan has these or groups.
-    pub batteries: Vec<Battery>,
 }
 
 /// Limits of each cell.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CellBudget {
     /// A cell expected to have more triangles is skipped.
@@ -154,15 +152,15 @@ pub struct Expectations {
     pub measured_per_domain: BTreeMap<String, usize>,
     /// Between what the slope of log₁₀ L2 error against log₁₀ vertices must lie, for the adapted meshes of each problem.
     pub adapted_slope: Option<SlopeRange>,
-    /// Of a battery: the most cases that may panic, or end their process.
+    /// Of cases that are tallied: the most cases that may panic, or end their process.
     pub panicked: Option<u64>,
-    /// Of a battery: the most cases that may hang.
+    /// Of cases that are tallied: the most cases that may hang.
     pub hung: Option<u64>,
-    /// Of a battery: the most cases whose mesh may break a guaranteed check.
+    /// Of cases that are tallied: the most cases whose mesh may break a guaranteed check.
     pub invalid: Option<u64>,
-    /// Of a battery: the largest share of valid domains that a method may decline.
+    /// Of cases that are tallied: the largest share of valid domains that a method may decline.
     pub declined_share: Option<f64>,
-    /// Of a battery: the most families that may be skipped since their files are not there.
+    /// Of cases that are tallied: the most families that may be skipped since their files are not there.
     pub skipped_families: Option<u64>,
 }
 
@@ -209,17 +207,6 @@ struct File {
     methods: BTreeMap<String, Vec<Method>>,
     #[serde(default)]
     group: Vec<Group>,
-    #[serde(default)]
-    battery: Vec<Battery>,
-}
-
-/// The mesher that a plan is about: the one it names, which must be in a cell, or else that of the first cell.
-fn mesher_in_question(named: Option<String>, cells: &[PlannedCell]) -> Result<String, String> {
-    let meshers = first_seen(cells.iter().map(|planned| planned.cell.mesher.as_str()));
-    let about = named.or_else(|| meshers.first().map(ToString::to_string));
-    about
-        .filter(|about| meshers.contains(&about.as_str()))
-        .ok_or_else(|| format!("`about` is none of the meshers of its groups: {}", meshers.join(", ")))
 }
 
 impl Plan {
@@ -249,7 +236,6 @@ impl Plan {
             expect,
             methods,
             mut group,
-            battery,
         } = toml::from_str(&text).map_err(|cause| error(cause.to_string().trim_end().to_owned()))?;
         for each in &mut group {
             each.resolve(&methods).map_err(error)?;
@@ -265,15 +251,12 @@ impl Plan {
             budget,
             expect,
             groups: group,
-            batteries: battery,
         };
-        if plan.batteries.is_empty() {
-            let cells = plan.cells()?;
-            plan.about = mesher_in_question(about, &cells).map_err(error)?;
-            plan.sections = plan.sections_of(&cells, sections.as_deref());
-            plan.check_headline().map_err(error)?;
-        }
-        plan.check_batteries().map_err(error)?;
+        let cells = plan.cells()?;
+        plan.check_tallied().map_err(error)?;
+        plan.about = plan.mesher_in_question(about).map_err(error)?;
+        plan.sections = plan.sections_of(&cells, sections.as_deref());
+        plan.check_headline().map_err(error)?;
         Ok(plan)
     }
 
@@ -293,7 +276,13 @@ impl Plan {
                     Section::defaults(&own.map(|planned| &planned.cell).collect::<Vec<_>>(), &self.about)
                 }
             };
-            for section in shown.into_iter().chain([Section::Certificate]) {
+            let shown: BTreeSet<Section> = shown;
+            let is_tallied = |group: &Group| group.name == name && group.tally.is_some();
+            let always = match self.groups.iter().any(is_tallied) {
+                true => Section::Tally,
+                false => Section::Certificate,
+            };
+            for section in shown.into_iter().chain([always]) {
                 sections.entry(section).or_default().insert(name.to_owned());
             }
         }
@@ -314,22 +303,34 @@ impl Plan {
         })
     }
 
-    fn check_batteries(&self) -> Result<(), String> {
-        if !self.batteries.is_empty() && !self.groups.is_empty() {
-            return Err(
-                "it has groups and batteries; put them into two files, for their results differ in kind".into(),
-            );
-        }
+    /// The mesher that it is about: the one it names, which must be in a group, or else the first.
+    fn mesher_in_question(&self, named: Option<String>) -> Result<String, String> {
+        let methods: Vec<Method> = self
+            .groups
+            .iter()
+            .filter_map(|group| group.methods().ok())
+            .flatten()
+            .collect();
+        let meshers = first_seen(methods.iter().map(|method| method.mesher.as_str()));
+        let about = named.or_else(|| meshers.first().map(ToString::to_string));
+        about
+            .filter(|about| meshers.contains(&about.as_str()))
+            .ok_or_else(|| format!("`about` is none of the meshers of its groups: {}", meshers.join(", ")))
+    }
+
+    /// Its groups that are tallied, each with what it says of that.
+    pub fn tallied(&self) -> impl Iterator<Item = (&Group, &Tallied)> {
+        self.groups
+            .iter()
+            .filter_map(|group| Some((group, group.tally.as_ref()?)))
+    }
+
+    fn check_tallied(&self) -> Result<(), String> {
         let mut names = BTreeSet::new();
-        for battery in &self.batteries {
-            let families = battery.families.join(", ");
-            battery
-                .check()
-                .map_err(|problem| format!("battery of {families}: {problem}"))?;
-            for family in &battery.families {
-                if !names.insert(family) {
-                    return Err(format!("family `{family}` stands there twice; remove one"));
-                }
+        let families = self.tallied().flat_map(|(_, tallied)| &tallied.families);
+        for family in families {
+            if !names.insert(family) {
+                return Err(format!("family `{family}` stands there twice; remove one"));
             }
         }
         Ok(())
@@ -343,7 +344,6 @@ impl Plan {
         self.expect.declined_share = None;
         self.expect.adapted_slope = None;
         self.groups = self.groups.into_iter().filter_map(Group::into_quick).collect();
-        self.batteries = self.batteries.into_iter().filter_map(Battery::into_quick).collect();
         self
     }
 
@@ -373,7 +373,7 @@ impl Plan {
             let found = group
                 .cells(self.budget)
                 .map_err(|problem| error(format!("group `{}`: {problem}", group.name)))?;
-            if found.is_empty() {
+            if found.is_empty() && group.tally.is_none() {
                 return Err(error(format!(
                     "group `{}` has an empty list, so no cells; fill it",
                     group.name
@@ -386,7 +386,7 @@ impl Plan {
                 cells.push(planned);
             }
         }
-        if cells.is_empty() {
+        if self.groups.is_empty() {
             return Err(error(
                 "no group has cells to run; under --quick only groups with a `quick` table run".into(),
             ));

@@ -6,7 +6,7 @@ use crate::suite::fem::Problem;
 use crate::suite::rows::adapted::Adapt;
 use crate::suite::rows::record::Cell;
 use crate::suite::rows::record::parameter_text;
-use crate::suite::run::plan::{CellBudget, Number, PlannedCell, Section};
+use crate::suite::run::plan::{CellBudget, Number, PlannedCell, Section, Tallied};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -19,6 +19,9 @@ pub struct Group {
     /// The sections of the page that show its rows, where they are not the plan's.
     #[serde(default)]
     pub sections: Option<Vec<Section>>,
+    /// That its cases are tallied in place of a row each, and how.
+    #[serde(default)]
+    pub tally: Option<Tallied>,
     /// Gallery names or files.
     pub domains: Vec<String>,
     /// Spacings before cap and limiting.
@@ -32,8 +35,10 @@ pub struct Group {
     /// Meshers with their parameters, in place of `mesher` and `params`.
     #[serde(default)]
     methods: Option<Methods>,
-    t: Vec<Number>,
-    c_b: Vec<Number>,
+    /// Values of t.
+    pub t: Vec<Number>,
+    /// Values of c_b.
+    pub c_b: Vec<Number>,
     #[serde(default = "seed_zero")]
     seeds: Vec<u64>,
     #[serde(default = "yes")]
@@ -56,7 +61,7 @@ pub struct Group {
     repeats: usize,
     /// Triangles, where the group needs another budget than the plan's.
     #[serde(default)]
-    budget: Option<CellBudget>,
+    pub budget: Option<CellBudget>,
     #[serde(default)]
     quick: Option<Quick>,
 }
@@ -74,6 +79,7 @@ struct Quick {
     adapt: Option<Vec<Adapt>>,
     equal_triangles: Option<Counts>,
     repeats: Option<usize>,
+    draws: Option<usize>,
 }
 
 /// One number of triangles or several.
@@ -172,11 +178,17 @@ impl Group {
         self.t = quick.t.unwrap_or(self.t);
         self.c_b = quick.c_b.unwrap_or(self.c_b);
         self.repeats = quick.repeats.unwrap_or(self.repeats);
+        if let Some((tallied, draws)) = self.tally.as_mut().zip(quick.draws) {
+            tallied.draws = draws;
+        }
         Some(self)
     }
 
     /// How many combinations its lists have.
     pub(super) fn combinations(&self) -> usize {
+        if self.tally.is_some() {
+            return 0;
+        }
         let methods = self.methods.as_ref().map_or(1, |methods| methods.list().len());
         let params = self.params.as_ref().map_or(1, Vec::len);
         let lists = [
@@ -205,15 +217,48 @@ impl Group {
         for adapt in self.adapt.iter().flatten() {
             adapt.check()?;
         }
+        if let Some(tallied) = &self.tally {
+            tallied.check(&self.domains)?;
+            self.check_what_is_drawn_from()?;
+        }
         if self.timed && self.repeats == 0 {
             return Err("`repeats` must be at least 1".into());
         }
         Ok(())
     }
 
+    /// Whether a group that is tallied has lists to draw from, and nothing that only rows can have.
+    fn check_what_is_drawn_from(&self) -> Result<(), String> {
+        let lists = [
+            ("domains", self.domains.is_empty()),
+            ("methods", self.methods()?.is_empty()),
+            ("spacings", self.spacings.is_empty()),
+            ("t", self.t.is_empty()),
+            ("c_b", self.c_b.is_empty()),
+        ];
+        if let Some((name, _)) = lists.iter().find(|(_, is_empty)| *is_empty) {
+            return Err(format!("`{name}` is empty; fill it"));
+        }
+        let of_rows = [
+            ("timed", self.timed),
+            ("poisson", self.poisson.is_some()),
+            ("adapt", self.adapt.is_some()),
+            ("equal_triangles", self.equal_triangles.is_some()),
+        ];
+        match of_rows.iter().find(|(_, is_there)| *is_there) {
+            Some((name, _)) => Err(format!(
+                "a group that is tallied has no `{name}`; remove it, or `tally`"
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// The group's cells, domain by domain, within a domain spacing by spacing, within a spacing method by method.
     pub(super) fn cells(&self, budget: CellBudget) -> Result<Vec<PlannedCell>, String> {
         self.check()?;
+        if self.tally.is_some() {
+            return Ok(Vec::new());
+        }
         let methods = self.methods()?;
         let asked = |domain: &String, spacing: &String, method: &Method| {
             let mut cells = Vec::new();
@@ -278,7 +323,10 @@ impl Group {
     }
 
     /// What the group says of meshers, in one form.
-    fn methods(&self) -> Result<Vec<Method>, String> {
+    ///
+    /// # Errors
+    /// That it says nothing, or two things.
+    pub fn methods(&self) -> Result<Vec<Method>, String> {
         match (&self.mesher, &self.methods, &self.params) {
             (Some(mesher), None, params) => {
                 let params = params.clone().unwrap_or_else(|| vec![Parameters::new()]);

@@ -47,7 +47,9 @@ pub enum Section {
     Oversampling,
     /// A picture of a mesh of each domain.
     Meshes,
-    /// How often each claim of the certificate held: a section of every page.
+    /// How many cases ended how, and why: of every group that is tallied.
+    Tally,
+    /// How often each claim of the certificate held: of every group whose cells have rows.
     Certificate,
 }
 

@@ -1,11 +1,11 @@
-//! Deals the cases of a plan's batteries out to workers, chunk by chunk, and appends a line for each chunk.
+//! Deals cases of groups that are tallied out to workers, chunk by chunk, and appends a line for each chunk.
 
 use crate::suite::rows::journal::{Journal, JournalError, Line};
 use crate::suite::rows::machine;
 use crate::suite::rows::record::Provenance;
-use crate::suite::run::battery::chunk::Chunk;
-use crate::suite::run::battery::family::{Family, Part};
-use crate::suite::run::battery::worker::Worker;
+use crate::suite::run::tally::chunk::Chunk;
+use crate::suite::run::tally::family::{Family, Part};
+use crate::suite::run::tally::worker::Worker;
 use std::io;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -38,7 +38,7 @@ pub trait Watch: Sync {
 
 /// Chunks about to be run.
 pub struct Campaign<'a> {
-    /// The program and its arguments that a worker is: something that calls [`crate::suite::run::battery::worker::serve`].
+    /// The program and its arguments that a worker is: something that calls [`crate::suite::run::tally::worker::serve`].
     pub worker: (PathBuf, &'a [&'a str]),
     /// Written into every line, with the time of that line.
     pub provenance: &'a Provenance,
@@ -88,9 +88,9 @@ impl Campaign<'_> {
             if stop.load(Ordering::Relaxed) {
                 return Ok(None);
             }
-            let case = family.case(number);
-            let trial = worker.run(&case)?;
-            chunk.note(&case, &trial, number % methods.len() == 0);
+            let trial = family.case(number);
+            let tried = worker.run(&trial)?;
+            chunk.note(&trial, &tried, number % methods.len() == 0);
         }
         chunk.provenance = Provenance {
             date: machine::now(),

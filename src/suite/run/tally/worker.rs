@@ -2,8 +2,8 @@
 //!
 //! A line of JSON for each case goes in, a line of JSON for each trial comes out.
 
-use crate::suite::run::battery::family::Case;
-use crate::suite::run::battery::trial::{self, Trial, Verdict};
+use crate::suite::run::tally::family::Trial;
+use crate::suite::run::tally::trial::{self, Tried, Verdict};
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::PathBuf;
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_secs(30);
 /// What the streams say, and lines that are no cases.
 pub fn serve(input: impl BufRead, mut output: impl Write) -> io::Result<()> {
     for line in input.lines() {
-        let case: Case = serde_json::from_str(&line?)?;
+        let case: Trial = serde_json::from_str(&line?)?;
         serde_json::to_writer(&mut output, &trial::run(&case))?;
         output.write_all(b"\n")?;
         output.flush()?;
@@ -68,7 +68,7 @@ impl Worker {
     ///
     /// # Errors
     /// If no process can be started.
-    pub fn run(&mut self, case: &Case) -> io::Result<Trial> {
+    pub fn run(&mut self, case: &Trial) -> io::Result<Tried> {
         let most = Duration::from_secs_f64(HUNG_AFTER * case.budget.seconds) + self.patience;
         let mut process = match self.process.take() {
             Some(process) => process,
@@ -86,11 +86,11 @@ impl Worker {
             }
             Err(RecvTimeoutError::Timeout) => {
                 let reason = format!("not done after {} seconds", most.as_secs_f64());
-                Trial::without_mesh(Verdict::Hung, reason)
+                Tried::without_mesh(Verdict::Hung, reason)
             }
             Err(RecvTimeoutError::Disconnected) => {
                 let reason = format!("its process ended: {}", process.child.wait()?);
-                Trial::without_mesh(Verdict::Panicked, reason)
+                Tried::without_mesh(Verdict::Panicked, reason)
             }
         })
     }
@@ -122,12 +122,12 @@ impl Worker {
 mod tests {
     use super::*;
     use crate::suite::rows::record::Cell;
-    use crate::suite::run::battery::family::Limits;
+    use crate::suite::run::plan::CellBudget;
 
-    fn case() -> Case {
-        Case {
+    fn case() -> Trial {
+        Trial {
             cell: Cell::new("random-pslg:kind=fan,seed=1", "biting", "lfs", 0.25, 0.75),
-            budget: Limits {
+            budget: CellBudget {
                 triangles: 1e4,
                 seconds: 0.01,
             },
@@ -147,7 +147,7 @@ mod tests {
         let line = serde_json::to_string(&case()).expect("JSON") + "\n";
         let mut answers = Vec::new();
         serve(line.repeat(2).as_bytes(), &mut answers).expect("served");
-        let trials: Vec<Trial> = String::from_utf8_lossy(&answers)
+        let trials: Vec<Tried> = String::from_utf8_lossy(&answers)
             .lines()
             .map(|line| serde_json::from_str(line).expect("a trial"))
             .collect();

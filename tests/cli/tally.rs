@@ -1,11 +1,11 @@
-//! Sweeps of batteries: chunks, kills, shards, families without files, expectations.
+//! Groups that are tallied: chunks, kills, shards, families without files, expectations.
 
 use super::{folder, run};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-fn plan(folder: &Path, batteries: &str) {
+fn plan(folder: &Path, groups: &str) {
     let text = format!(
         r#"
         question = "What comes out?"
@@ -18,36 +18,36 @@ fn plan(folder: &Path, batteries: &str) {
         invalid = 0
         declined_share = 0.5
         skipped_families = 0
-        {batteries}
+        {groups}
         "#
     );
     fs::write(folder.join("try.toml"), text).expect("written");
 }
 
 const RANDOM: &str = r#"
-    [[battery]]
-    families = ["convex", "fan", "grid"]
-    domain = "random-pslg:kind={family},seed={seed}"
-    domains = 3
+    [[group]]
+    name = "random"
+    tally = { families = ["convex", "fan", "grid"], draws = 3 }
+    domains = ["random-pslg:kind={family},seed={seed}"]
     methods = [{ mesher = "biting" }, { mesher = "delaunay-refinement" }]
     spacings = ["lfs"]
     t = [0.25]
     c_b = [0.75]
-    quick = { domains = 1 }
+    quick = { draws = 1 }
 "#;
 
 const FILES: &str = r#"
-    [[battery]]
-    families = ["outlines"]
-    folder = "{family}"
-    fetch = "make them"
+    [[group]]
+    name = "files"
+    tally = { families = ["outlines"], fetch = "make them" }
+    domains = ["{family}"]
     methods = [{ mesher = "biting" }]
     spacings = ["lfs"]
     t = [0.25]
     c_b = [0.75]
 "#;
 
-/// The chunks of a file, without the parts that may differ from run to run.
+/// The chunks of a file, without what may differ from run to run.
 fn chunks(file: &Path) -> Vec<Value> {
     let text = fs::read_to_string(file).expect("chunks");
     let parse = |line: &str| {
@@ -62,7 +62,7 @@ fn chunks(file: &Path) -> Vec<Value> {
 }
 
 #[test]
-fn a_battery_is_tallied_resumed_and_joined_from_shards() {
+fn cases_are_tallied_resumed_and_joined_from_shards() {
     let folder = folder();
     plan(folder.path(), RANDOM);
     let (out, _) = run(folder.path(), &["sweep", "try.toml"], 0);
@@ -72,7 +72,7 @@ fn a_battery_is_tallied_resumed_and_joined_from_shards() {
     assert_eq!(whole.len(), 3);
     assert_eq!(whole[1]["tallies"][0]["cases"]["certified"], 3, "{whole:?}");
     let page = fs::read_to_string(folder.path().join("results/try/README.md")).expect("a page");
-    assert!(page.contains("**18 cases** of 3 families by 2 methods"), "{page}");
+    assert!(page.contains("Of 18 hard cases, "), "{page}");
 
     let bytes = fs::read(&file).expect("read");
     fs::write(&file, &bytes[..bytes.len() - 100]).expect("cut off, as by a kill");
@@ -123,22 +123,26 @@ fn a_family_without_files_is_skipped_and_not_passed() {
         "{found:?}"
     );
     assert!(
-        found[3]["exceptions"][0]["command"]
+        found[3]["uncertified"][0]["command"]
             .as_str()
             .is_some_and(|text| text.contains("crossing.geojson"))
     );
 }
 
 #[test]
-fn plans_that_are_not_a_battery_are_refused() {
+fn plans_that_cannot_be_tallied_are_refused() {
     let folder = folder();
-    for (wrong, expected) in [
-        (RANDOM.replace("domains = 3", ""), "say `domain`"),
+    for (wrong, told) in [
+        (RANDOM.replace(", draws = 3", ""), "`draws`"),
         (RANDOM.replace("\"fan\"", "\"convex\""), "stands there twice"),
         (RANDOM.replace("t = [0.25]", "t = []"), "`t` is empty"),
+        (
+            RANDOM.replace("t = [0.25]", "t = [0.25]\ntimed = true"),
+            "has no `timed`",
+        ),
     ] {
         plan(folder.path(), &wrong);
         let (_, err) = run(folder.path(), &["sweep", "try.toml"], 2);
-        assert!(err.contains(expected), "{err}");
+        assert!(err.contains(told), "{err}");
     }
 }

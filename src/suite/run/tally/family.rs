@@ -1,7 +1,8 @@
 //! Which domains a family has, and what each of its cases asks for.
 
+use crate::suite::rows::hash::fnv;
 use crate::suite::rows::record::{Cell, parameter_text, quoted};
-use crate::suite::run::plan::{Battery, CellBudget, Method};
+use crate::suite::run::plan::{CellBudget, Group, Method, Number, Plan, Tallied};
 use crate::suite::run::runner;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -15,27 +16,18 @@ const INTEGRAL_EVERY: usize = 10;
 /// Cases that are written as one line.
 const CASES_PER_CHUNK: usize = 500;
 
-/// A case: a domain, a method, and what is asked of it.
+/// A trial to be made: a domain, a method, and what is asked of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Case {
+pub struct Trial {
     /// What is asked for.
     pub cell: Cell,
     /// Its limits.
-    pub budget: Limits,
+    pub budget: CellBudget,
     /// Whether ∫ dA / f² is found, and with it the bounds on the number of vertices and the number of triangles to expect.
     pub integral: bool,
 }
 
-/// Limits of a case.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Limits {
-    /// A mesh expected to have more triangles is not begun.
-    pub triangles: f64,
-    /// A mesher is stopped after this many seconds.
-    pub seconds: f64,
-}
-
-impl Case {
+impl Trial {
     /// The command that runs it again.
     pub fn command(&self) -> String {
         let Cell {
@@ -70,122 +62,100 @@ impl Case {
     }
 }
 
-/// A family of a plan's battery.
+/// A family of domains of a group that is tallied.
 #[derive(Clone, Debug)]
 pub struct Family {
     /// Its name.
     pub name: String,
     /// How to get its files, where they are not there.
     pub missing: Option<String>,
-    domains: Domains,
-    battery: Battery,
-    limits: Limits,
-}
-
-#[derive(Clone, Debug)]
-enum Domains {
-    /// Gallery names, but for the seed.
-    Drawn(String, usize),
-    /// Files.
-    Files(Vec<String>),
+    domains: Vec<String>,
+    methods: Vec<Method>,
+    spacings: Vec<String>,
+    t: Vec<Number>,
+    c_b: Vec<Number>,
+    budget: CellBudget,
 }
 
 impl Family {
-    /// The families of a plan's batteries. A folder that is missing, or has no domain in it, makes a family of no cases.
-    pub fn all(batteries: &[Battery], budget: CellBudget) -> Vec<Self> {
-        let of = |battery: &Battery| {
-            let one = |name: &String| Self::new(name, battery, battery.budget.unwrap_or(budget));
-            battery.families.iter().map(one).collect::<Vec<_>>()
+    /// All families of a plan. A folder that is missing, or has no domain in it, makes a family of no cases.
+    pub fn all(plan: &Plan) -> Vec<Self> {
+        let of = |(group, tallied): (&Group, &Tallied)| {
+            let one = |name: &String| Self::new(name, group, tallied, plan.budget);
+            tallied.families.iter().map(one).collect::<Vec<_>>()
         };
-        batteries.iter().flat_map(of).collect()
+        plan.tallied().flat_map(of).collect()
     }
 
-    fn new(name: &str, battery: &Battery, budget: CellBudget) -> Self {
-        let domains = match (&battery.domain, &battery.folder) {
-            (Some(pattern), _) => Domains::Drawn(pattern.replace("{family}", name), battery.domains.unwrap_or(0)),
-            (None, folder) => {
-                let folder = folder.as_deref().unwrap_or_default().replace("{family}", name);
-                let mut files = files(Path::new(&folder));
-                files.truncate(battery.domains.unwrap_or(usize::MAX));
-                Domains::Files(files)
+    fn new(name: &str, group: &Group, tallied: &Tallied, budget: CellBudget) -> Self {
+        let of = |pattern: &String| {
+            let pattern = pattern.replace("{family}", name);
+            match pattern.contains("{seed}") {
+                true => (0..tallied.draws)
+                    .map(|seed| pattern.replace("{seed}", &seed.to_string()))
+                    .collect(),
+                false => files(Path::new(&pattern)),
             }
         };
-        let missing = matches!(&domains, Domains::Files(files) if files.is_empty()).then(|| {
-            let fetch = battery.fetch.as_deref().unwrap_or("fetch them");
+        let domains: Vec<String> = group.domains.iter().flat_map(of).collect();
+        let missing = domains.is_empty().then(|| {
+            let fetch = tallied.fetch.as_deref().unwrap_or("fetch them");
             format!("its domains are not there; get them by `{fetch}`")
         });
         Self {
             name: name.to_owned(),
             missing,
             domains,
-            battery: battery.clone(),
-            limits: Limits {
-                triangles: budget.triangles,
-                seconds: budget.seconds,
-            },
-        }
-    }
-
-    /// How many domains it has.
-    pub fn domains(&self) -> usize {
-        match &self.domains {
-            Domains::Drawn(_, count) => *count,
-            Domains::Files(files) => files.len(),
+            // A plan that was read has methods.
+            methods: group.methods().unwrap_or_default(),
+            spacings: group.spacings.clone(),
+            t: group.t.clone(),
+            c_b: group.c_b.clone(),
+            budget: group.budget.unwrap_or(budget),
         }
     }
 
     /// How many cases it has: each domain by every method.
     pub fn cases(&self) -> usize {
-        self.domains() * self.battery.methods.len()
+        self.domains.len() * self.methods.len()
     }
 
-    /// The methods, as [`Case::method`] writes them.
+    /// The methods, as [`Trial::method`] writes them.
     pub fn methods(&self) -> Vec<String> {
-        (0..self.battery.methods.len().min(self.cases()))
+        (0..self.methods.len().min(self.cases()))
             .map(|number| self.case(number).method())
             .collect()
     }
 
     /// What is wrong with a method that the plan names, if something is.
     pub fn check(&self) -> Result<(), String> {
-        let methods = 0..self.battery.methods.len().min(self.cases());
+        let methods = 0..self.methods.len().min(self.cases());
         methods
             .map(|number| runner::mesher(&self.case(number).cell))
             .try_for_each(|mesher| mesher.map(|_| ()))
     }
 
     /// The case of that number. Spacing, t and c_b are drawn, each from its list, by family and number.
-    pub fn case(&self, number: usize) -> Case {
-        let Battery {
-            methods,
-            spacings,
-            t,
-            c_b,
-            ..
-        } = &self.battery;
-        let Method { mesher, params } = &methods[number % methods.len()];
-        let seed = number / methods.len();
-        let mut random = Pcg64::seed_from_u64(fingerprint(&self.name) ^ number as u64);
-        let spacing = &spacings[random.random_range(0..spacings.len())];
-        let t = t[random.random_range(0..t.len())].get();
-        let c_b = c_b[random.random_range(0..c_b.len())].get();
-        let domain = match &self.domains {
-            Domains::Drawn(pattern, _) => &pattern.replace("{seed}", &seed.to_string()),
-            Domains::Files(files) => &files[seed],
-        };
-        Case {
+    pub fn case(&self, number: usize) -> Trial {
+        let Method { mesher, params } = &self.methods[number % self.methods.len()];
+        let place = number / self.methods.len();
+        let mut random = Pcg64::seed_from_u64(fnv(&self.name) ^ number as u64);
+        let spacing = &self.spacings[random.random_range(0..self.spacings.len())];
+        let t = self.t[random.random_range(0..self.t.len())].get();
+        let c_b = self.c_b[random.random_range(0..self.c_b.len())].get();
+        Trial {
             cell: Cell {
                 params: params.clone(),
-                ..Cell::new(domain, mesher, spacing, t, c_b)
+                ..Cell::new(&self.domains[place], mesher, spacing, t, c_b)
             },
-            budget: self.limits,
-            integral: seed.is_multiple_of(INTEGRAL_EVERY),
+            budget: self.budget,
+            integral: place.is_multiple_of(INTEGRAL_EVERY),
         }
     }
 
     /// Its chunks, one at least: of no cases where its files are missing.
     pub fn chunks(&self) -> Vec<Part> {
-        let asked = fingerprint(&format!("{:?}{:?}{:?}", self.domains, self.battery, self.limits));
+        let asked = fnv(&format!("{self:?}"));
         let part = |first: usize| {
             let end = self.cases().min(first + CASES_PER_CHUNK);
             Part {
@@ -225,32 +195,36 @@ fn files(folder: &Path) -> Vec<String> {
     files
 }
 
-/// FNV-1a of 64 bits.
-pub(crate) fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn battery(text: &str) -> Battery {
-        let common = r#"
-            families = ["fan"]
-            methods = [{ mesher = "biting", params = { order = "fifo" } }, { mesher = "quadtree-mis" }]
-            spacings = ["lfs", "expr:0.1*({w} + {h})"]
+    /// The families of a plan with one group.
+    fn families(domains: &str, tally: &str) -> Vec<Family> {
+        let text = format!(
+            r#"
+            question = "What breaks?"
+            [[group]]
+            name = "hard"
+            tally = {{ families = ["fan"], {tally} }}
+            domains = ["{domains}"]
+            methods = [{{ mesher = "biting", params = {{ order = "fifo" }} }}, {{ mesher = "quadtree-mis" }}]
+            spacings = ["lfs", "expr:0.1*({{w}} + {{h}})"]
             t = [0.25, "1/3"]
             c_b = [0.5, 0.75]
-        "#;
-        toml::from_str(&format!("{common}{text}")).expect("a battery")
+        "#
+        );
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("try.toml");
+        std::fs::write(&file, text).expect("written");
+        Family::all(&Plan::read(&file).expect("a plan"))
     }
+
+    const DRAWN: &str = "random-pslg:kind={family},seed={seed}";
 
     #[test]
     fn a_case_is_a_function_of_family_and_number() {
-        let drawn = battery("domain = \"random-pslg:kind={family},seed={seed}\"\ndomains = 600");
-        let family = &Family::all(&[drawn], CellBudget::default())[0];
+        let family = &families(DRAWN, "draws = 600")[0];
         assert_eq!((family.cases(), family.chunks().len()), (1200, 3));
         assert_eq!(family.chunks()[2].end, 1200);
         let (first, fifth) = (family.case(0), family.case(5));
@@ -273,8 +247,7 @@ mod tests {
 
     #[test]
     fn a_command_is_quoted_for_a_shell() {
-        let drawn = battery("domain = \"random-pslg:kind={family},seed={seed}\"\ndomains = 1");
-        let mut case = Family::all(&[drawn], CellBudget::default())[0].case(0);
+        let mut case = families(DRAWN, "draws = 1")[0].case(0);
         case.cell.domain = "it's.poly".into();
         case.cell.spacing = "expr:0.1*({w} + {h})".into();
         let Cell { t, c_b, .. } = case.cell;
@@ -291,12 +264,11 @@ mod tests {
         for name in ["b.poly", "a.geojson", "c.txt"] {
             std::fs::write(folder.path().join(name), "").expect("written");
         }
-        let place = folder.path().display();
-        let families = Family::all(&[battery(&format!("folder = \"{place}\""))], CellBudget::default());
-        assert_eq!((families[0].domains(), &families[0].missing), (2, &None));
-        assert!(families[0].case(0).cell.domain.ends_with("a.geojson"));
-        let missing = battery("folder = \"no/such/{family}\"\nfetch = \"get it\"");
-        let families = Family::all(&[missing], CellBudget::default());
+        let place = folder.path().display().to_string();
+        let there = families(&place, "draws = 0");
+        assert_eq!((there[0].domains.len(), &there[0].missing), (2, &None));
+        assert!(there[0].case(0).cell.domain.ends_with("a.geojson"));
+        let families = families("no/such/{family}", "fetch = \"get it\"");
         assert!(
             families[0]
                 .missing

@@ -1,19 +1,17 @@
-//! The line that a run of cases leaves: counts, and every case that is not certified.
+//! What a run of cases comes to: counts, and every case that is not certified.
 
+use crate::suite::rows::hash::digest;
 use crate::suite::rows::journal::Record;
 use crate::suite::rows::record::Provenance;
-use crate::suite::run::battery::family::Case;
-use crate::suite::run::battery::trial::{Trial, Verdict};
+use crate::suite::run::tally::family::Trial;
+use crate::suite::run::tally::trial::{Tried, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Most exceptions a chunk lists; its reasons count all of them.
-const MOST_EXCEPTIONS: usize = 60;
-
-/// A line of `chunks.jsonl`.
+/// A line of the journal.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Chunk {
-    /// [`crate::suite::run::battery::family::Part::key`].
+    /// [`crate::suite::run::tally::family::Part::key`].
     pub key: String,
     /// The family's name.
     pub family: String,
@@ -24,10 +22,8 @@ pub struct Chunk {
     pub discarded: u64,
     /// One for each method, in the plan's order.
     pub tallies: Vec<Tally>,
-    /// Why cases are not certified, by method, verdict and kind of reason.
-    pub reasons: Vec<Reason>,
-    /// Cases that are not certified: the first few.
-    pub exceptions: Vec<Exception>,
+    /// Cases that are not certified.
+    pub uncertified: Vec<Uncertified>,
     /// A hash of the fingerprints of all meshes, in order: equal on every run.
     pub digest: String,
     /// What made it, and when it was done.
@@ -79,30 +75,26 @@ impl Tally {
     }
 }
 
-/// A kind of reason, and how often it was given.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Reason {
+/// A case that is not certified.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Uncertified {
     /// Mesher and parameters.
     pub method: String,
-    /// How these cases ended.
-    pub verdict: Verdict,
-    /// The reason, its numbers and names replaced by `#`.
-    pub kind: String,
-    /// How many cases.
-    pub count: u64,
-    /// The command of the first of them.
-    pub example: String,
-}
-
-/// A case that is not certified.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Exception {
     /// How it ended.
     pub verdict: Verdict,
+    /// Gallery name or file.
+    pub domain: String,
     /// Why.
     pub reason: String,
     /// The command that runs it again.
     pub command: String,
+}
+
+impl Uncertified {
+    /// The reason without what is special to one case: its numbers and its domain.
+    pub fn kind(&self) -> String {
+        kind(&self.reason, &self.domain)
+    }
 }
 
 impl Chunk {
@@ -120,48 +112,25 @@ impl Chunk {
         }
     }
 
-    /// Counts a case. `is_new_domain` tells whether it is the first of its domain.
-    pub fn note(&mut self, case: &Case, trial: &Trial, is_new_domain: bool) {
-        let method = case.method();
+    /// Counts a case; `is_new_domain` where it is the first of its domain.
+    pub fn note(&mut self, trial: &Trial, tried: &Tried, is_new_domain: bool) {
+        let method = trial.method();
         if is_new_domain {
-            self.discarded += trial.discarded as u64;
+            self.discarded += tried.discarded as u64;
         }
-        let before = u64::from_str_radix(&self.digest, 16).unwrap_or(0xcbf2_9ce4_8422_2325);
-        let all = trial.fingerprint.bytes().chain([b'/']);
-        let hash = all.fold(before, |hash, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-        });
-        self.digest = format!("{hash:016x}");
+        self.digest = digest(&self.digest, &tried.fingerprint);
         if let Some(tally) = self.tallies.iter_mut().find(|tally| tally.method == method) {
-            *tally.cases.entry(trial.verdict).or_default() += 1;
-            tally.triangles += trial.triangles as u64;
-            tally.seconds += trial.seconds;
+            *tally.cases.entry(tried.verdict).or_default() += 1;
+            tally.triangles += tried.triangles as u64;
+            tally.seconds += tried.seconds;
         }
-        if let Some(reason) = &trial.reason {
-            self.give(case, method, trial.verdict, reason);
-        }
-    }
-
-    fn give(&mut self, case: &Case, method: String, verdict: Verdict, reason: &str) {
-        let kind = kind(reason, &case.cell.domain);
-        let known = |known: &&mut Reason| (&known.method, known.verdict, &known.kind) == (&method, verdict, &kind);
-        match self.reasons.iter_mut().find(known) {
-            Some(known) => known.count += 1,
-            None => self.reasons.push(Reason {
-                method,
-                verdict,
-                kind,
-                count: 1,
-                example: case.command(),
-            }),
-        }
-        if self.exceptions.len() < MOST_EXCEPTIONS {
-            self.exceptions.push(Exception {
-                verdict,
-                reason: reason.to_owned(),
-                command: case.command(),
-            });
-        }
+        self.uncertified.extend(tried.reason.iter().map(|reason| Uncertified {
+            method: method.clone(),
+            verdict: tried.verdict,
+            domain: trial.cell.domain.clone(),
+            reason: reason.clone(),
+            command: trial.command(),
+        }));
     }
 }
 

@@ -4,11 +4,11 @@ use crate::domain::{self, gallery};
 use crate::meshers::{Budget, Request};
 use crate::quality::{Certificate, Check};
 use crate::spacing::{SpacingError, estimate_triangles};
-use crate::suite::run::battery::family::Case;
 use crate::suite::run::ending::guarded;
 use crate::suite::run::measure;
 use crate::suite::run::prepare::fill_in;
 use crate::suite::run::runner::{self, VERTICES_PER_BUDGET_TRIANGLE};
+use crate::suite::run::tally::family::Trial;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -40,7 +40,7 @@ pub enum Verdict {
 
 /// A case that was run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
+pub struct Tried {
     /// How it ended.
     pub verdict: Verdict,
     /// Why it is not certified.
@@ -55,7 +55,7 @@ pub struct Trial {
     pub seconds: f64,
 }
 
-impl Trial {
+impl Tried {
     /// A case that has no mesh.
     pub fn without_mesh(verdict: Verdict, reason: String) -> Self {
         Self {
@@ -70,25 +70,25 @@ impl Trial {
 }
 
 /// Runs a case as `biting mesh` would, and judges its mesh.
-pub fn run(case: &Case) -> Trial {
+pub fn run(trial: &Trial) -> Tried {
     let start = Instant::now();
-    let ended = guarded(|| attempt(case));
-    let trial = match ended {
-        Ok(Ok(trial)) => trial,
-        Ok(Err((verdict, reason))) => Trial::without_mesh(verdict, reason),
-        Err(panic) => Trial::without_mesh(Verdict::Panicked, panic),
+    let ended = guarded(|| attempt(trial));
+    let tried = match ended {
+        Ok(Ok(tried)) => tried,
+        Ok(Err((verdict, reason))) => Tried::without_mesh(verdict, reason),
+        Err(panic) => Tried::without_mesh(Verdict::Panicked, panic),
     };
-    Trial {
+    Tried {
         seconds: start.elapsed().as_secs_f64(),
-        discarded: guarded(|| gallery::discarded(&case.cell.domain)).unwrap_or(0),
-        ..trial
+        discarded: guarded(|| gallery::discarded(&trial.cell.domain)).unwrap_or(0),
+        ..tried
     }
 }
 
 /// Why there is no mesh.
 type NoMesh = (Verdict, String);
 
-fn attempt(trial: &Case) -> Result<Trial, NoMesh> {
+fn attempt(trial: &Trial) -> Result<Tried, NoMesh> {
     let cell = &trial.cell;
     let case = prepared(trial)?;
     let most = trial.budget.triangles;
@@ -116,7 +116,7 @@ fn attempt(trial: &Case) -> Result<Trial, NoMesh> {
         _ => declined(error.to_string()),
     })?;
     let broken = broken(&mesher.judge(&case, &mesh).1);
-    Ok(Trial {
+    Ok(Tried {
         verdict: if broken.is_none() {
             Verdict::Certified
         } else {
@@ -131,7 +131,7 @@ fn attempt(trial: &Case) -> Result<Trial, NoMesh> {
 }
 
 /// Domain and spacing, as for the cells of a sweep; its integral where asked for, to fewer digits.
-fn prepared(trial: &Case) -> Result<crate::Case, NoMesh> {
+fn prepared(trial: &Trial) -> Result<crate::Case, NoMesh> {
     let cell = &trial.cell;
     let domain = domain::load(&cell.domain).map_err(|error| (Verdict::Refused, error.to_string()))?;
     let declined = |error: SpacingError| (Verdict::Declined, error.to_string());
