@@ -92,7 +92,7 @@ pub(super) fn readme(entries: &[Entry]) -> String {
          the hash of the numbers that it was drawn from; a test makes the numbers again and fails where a figure is stale \
          (`src/suite/figures/tests/`).\n\n\
          Beside them: [what is wrong in the paper](errata.md) (`cargo run --release -- lemmas`), and a run to step through in a \
-         browser, [a plate with a hole](replay-plate-hole.html) (`cargo run --release -- figures --replay plate-hole`, or any other \
-         domain, such as `italy`).\n"
+         browser, [a plate with a hole](replay-plate-hole.html) (`cargo run --release -- figures --replay plate-hole`; a coast: \
+         `--replay italy --t 0.4 --c-b 1`).\n"
     )
 }
