@@ -5,7 +5,7 @@
 //! need, and [`Claim`] names the checks of the certificate. For [`Rule::Earlier`] the numbers are the paper's; for
 //! [`Rule::Later`] the docs of [`crate::meshers::biting`] derive them.
 
-use crate::geometry::tolerance::RIGHT_ANGLE_DEG;
+use crate::geometry::tolerance::{AREA, RIGHT_ANGLE_DEG};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, SQRT_2};
 use std::fmt;
@@ -120,6 +120,30 @@ impl Promises {
         let fewest = integral[0] / (self.most_eaten() * c_b * c_b);
         let most = 4.0 * (1.0 + self.t).powi(2) * integral[1] / (PI * c_b * c_b);
         [fewest, most]
+    }
+
+    /// What the certificate holds the worst value of a claim against. `integral` is as for [`Promises::vertices`].
+    pub fn bound(self, claim: Claim, c_b: f64, integral: [f64; 2]) -> f64 {
+        match claim {
+            Claim::PositiveOrientation
+            | Claim::VerticesUsed
+            | Claim::InputVertices
+            | Claim::InputSegments
+            | Claim::BoundaryOnSegments
+            | Claim::ConstrainedDelaunay => 0.0,
+            Claim::ManifoldEdges => 2.0,
+            Claim::Area => AREA,
+            Claim::PackingDisjoint | Claim::CornerAngles => 1.0,
+            Claim::Coverage => self.rule.of(0.0, 1.0),
+            Claim::BoundaryHeight => least_meeting_height(self.t.min(1.0)),
+            Claim::MinAngle | Claim::MinAngleBeyondCorners => self.min_angle_deg(),
+            Claim::NnVertexLower => c_b * self.nn_at_vertices()[0],
+            Claim::NnVertexUpper => c_b * self.nn_at_vertices()[1],
+            Claim::NnPointLower => c_b * self.nn_at_points()[0],
+            Claim::NnPointUpper => c_b * self.nn_at_points()[1],
+            Claim::VerticesLower => self.vertices(c_b, integral)[0],
+            Claim::VerticesUpper => self.vertices(c_b, integral)[1],
+        }
     }
 
     /// No upper bound holds from t = 1 on.
@@ -253,6 +277,9 @@ impl Guarantee {
     }
 }
 
+/// Whether something that a claim needs is met, and what it is.
+type Needed = (bool, &'static str);
+
 /// What the paper's theorems assume, stated or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hypotheses {
@@ -287,43 +314,103 @@ impl Hypotheses {
 
     /// Whether a claim follows from these hypotheses for a mesh made by biting.
     pub fn imply(&self, claim: Claim) -> bool {
-        if self.is_geodesic && (self.rule == Rule::Later || self.t > GEODESIC_T || self.corners_hide) {
-            return false;
+        self.unmet(claim).is_empty()
+    }
+
+    /// What a claim needs and they do not meet, each as one would ask for it; `…=…` are columns of the tables of results.
+    pub fn unmet(&self, claim: Claim) -> Vec<&'static str> {
+        let mut needed = Vec::new();
+        if self.is_geodesic {
+            needed.extend([
+                (self.rule == Rule::Earlier, "rule=earlier"),
+                (self.t <= GEODESIC_T, "t <= 0.414"),
+                (!self.corners_hide, "no corner that hides points"),
+            ]);
         }
         match claim {
-            Claim::PackingDisjoint | Claim::VerticesUpper => self.vertices_apart(),
-            Claim::Coverage | Claim::VerticesLower => self.t < 1.0,
-            Claim::BoundaryHeight => self.rule == Rule::Earlier && self.of_section_6(),
-            Claim::MinAngle => self.of_theorem_6_8(),
-            Claim::MinAngleBeyondCorners => self.corners_can_be_cut(),
-            Claim::CornerAngles => self.single_corners,
-            _ => self.vertices_apart() && self.t < 1.0,
+            Claim::PackingDisjoint | Claim::VerticesUpper => needed.extend(self.vertices_apart()),
+            Claim::Coverage | Claim::VerticesLower => needed.push(self.below_one()),
+            Claim::BoundaryHeight => {
+                needed.push((self.rule == Rule::Earlier, "rule=earlier"));
+                needed.extend(self.of_section_6());
+            }
+            Claim::MinAngle => needed.extend(self.of_theorem_6_8()),
+            Claim::MinAngleBeyondCorners => needed.extend(self.corners_can_be_cut()),
+            Claim::CornerAngles => needed.push((self.single_corners, "one angle inside at each corner")),
+            Claim::NnVertexLower | Claim::NnVertexUpper | Claim::NnPointLower | Claim::NnPointUpper => {
+                needed.extend(self.vertices_apart());
+                needed.push(self.below_one());
+            }
+            // Of the structure of a mesh.
+            _ => return Vec::new(),
         }
+        let mut unmet: Vec<&str> = needed
+            .iter()
+            .filter(|(is_met, _)| !is_met)
+            .map(|(_, what)| *what)
+            .collect();
+        unmet.dedup();
+        unmet
+    }
+
+    /// What [`Hypotheses::is_plain`] needs and they do not meet.
+    pub fn not_plain(&self) -> Vec<&'static str> {
+        let needed = [
+            (self.rule == Rule::Later || self.c_b + self.t <= 1.0, "c_b + t <= 1"),
+            self.no_small_angle(),
+        ];
+        needed
+            .iter()
+            .filter(|(is_met, _)| !is_met)
+            .map(|(_, what)| *what)
+            .collect()
     }
 
     /// What §6 assumes of domain and t.
-    fn of_section_6(&self) -> bool {
-        self.vertices_apart() && self.t <= BOUNDARY_T && self.has_no_small_angle()
+    fn of_section_6(&self) -> Vec<Needed> {
+        let [capped, small] = self.vertices_apart();
+        vec![capped, small, (self.t <= BOUNDARY_T, "t <= 1/3"), self.no_small_angle()]
     }
 
     /// What Theorem 6.8 needs, stated or not; by the rule of the later point, any t < 1 is enough.
-    fn of_theorem_6_8(&self) -> bool {
+    fn of_theorem_6_8(&self) -> Vec<Needed> {
         match self.rule {
-            Rule::Earlier => self.of_section_6() && self.low_head_on == 0,
-            Rule::Later => self.vertices_apart() && self.t < 1.0 && self.has_no_small_angle(),
+            Rule::Earlier => {
+                let mut needed = self.of_section_6();
+                needed.push((self.low_head_on == 0, "low_head_on=0"));
+                needed
+            }
+            Rule::Later => {
+                let [capped, small] = self.vertices_apart();
+                vec![capped, small, self.below_one(), self.no_small_angle()]
+            }
         }
     }
 
     /// Circles around input vertices hold no other input vertex (Lemma 5.1).
-    fn vertices_apart(&self) -> bool {
-        self.lfs_cap && self.c_b <= 1.0
+    fn vertices_apart(&self) -> [Needed; 2] {
+        [(self.lfs_cap, "lfs_cap=1"), (self.c_b <= 1.0, "c_b <= 1")]
     }
 
     /// Whether corners can be cut off so that the angle bound holds beyond them: with t, the spacing must come down to
     /// the sizes of the cuts.
-    fn corners_can_be_cut(&self) -> bool {
-        let steepest = self.rule.of(BOUNDARY_T, 1.0 / 2.0);
-        self.vertices_apart() && self.t <= steepest && (self.t >= FLAT_T || self.is_plain())
+    fn corners_can_be_cut(&self) -> Vec<Needed> {
+        let [capped, small] = self.vertices_apart();
+        let (steepest, told) = self.rule.of((BOUNDARY_T, "t <= 1/3"), (1.0 / 2.0, "t <= 1/2"));
+        vec![
+            capped,
+            small,
+            (self.t <= steepest, told),
+            (self.t >= FLAT_T || self.is_plain(), "t >= 0.05"),
+        ]
+    }
+
+    fn below_one(&self) -> Needed {
+        (self.t < 1.0, "t < 1")
+    }
+
+    fn no_small_angle(&self) -> Needed {
+        (self.has_no_small_angle(), "no angle under 90 degrees")
     }
 
     fn has_no_small_angle(&self) -> bool {

@@ -27,12 +27,14 @@ mod run;
 
 pub use cli::main;
 
-// What benches and fuzz targets take besides.
+// What benches, fuzz targets and tests of the command line take besides.
 #[doc(hidden)]
 pub use rows::journal::{Journal, Line, read_rows};
 #[doc(hidden)]
 pub use rows::numbers::{fit_line, median};
 #[doc(hidden)]
-pub use rows::record::Row;
+pub use rows::record::{Outcome, Row};
+#[doc(hidden)]
+pub use rows::tables::Tables;
 #[doc(hidden)]
 pub use run::plan::Plan;

@@ -1,6 +1,7 @@
 //! `compare` with a peer that is a shell script: installed, run, judged, ended at its limits; no Python, no network.
 
 use super::{folder, run};
+use biting::suite::{Outcome, Row, Tables};
 use serde_json::Value;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -83,13 +84,10 @@ fn install(folder: &Path) {
 }
 
 /// The peer's row.
-fn row(folder: &Path, fake: &str) -> Value {
-    let rows = fs::read_to_string(folder.join(fake).join("try/rows.jsonl")).expect("rows");
-    let rows = rows
-        .lines()
-        .map(|line| serde_json::from_str::<Value>(line).expect("a row"));
+fn row(folder: &Path, fake: &str) -> Row {
+    let rows = Tables::read(&folder.join(fake).join("try")).expect("tables").rows;
     rows.into_iter()
-        .find(|row| row["cell"]["mesher"] == "triangle")
+        .find(|row| row.cell.mesher == "triangle")
         .expect("the peer's row")
 }
 
@@ -103,13 +101,23 @@ fn a_peer_that_is_not_there_is_skipped_or_asked_for() {
         said.contains("triangle: not installed; `biting compare --install --only triangle`"),
         "{said}"
     );
-    assert_eq!(row(folder.path(), "mesh")["outcome"], "skipped");
+    assert_eq!(row(folder.path(), "mesh").outcome, Outcome::Skipped);
     let output = compare(folder.path(), "mesh", &["--only", "triangle"]);
     assert_eq!(output.status.code(), Some(2), "it was named");
     // Installed meanwhile, its cell is run.
     install(folder.path());
     assert_eq!(compare(folder.path(), "mesh", &[]).status.code(), Some(0));
-    assert_eq!(row(folder.path(), "mesh")["outcome"], "measured");
+    let measured = row(folder.path(), "mesh");
+    assert_eq!(measured.outcome, Outcome::Measured);
+    // Gone again, or not asked for: what was measured stays.
+    fs::remove_dir_all(folder.path().join("peers")).expect("removed");
+    assert_eq!(compare(folder.path(), "mesh", &[]).status.code(), Some(0));
+    assert_eq!(row(folder.path(), "mesh"), measured);
+    assert_eq!(
+        compare(folder.path(), "mesh", &["--only", "biting"]).status.code(),
+        Some(0)
+    );
+    assert_eq!(row(folder.path(), "mesh"), measured);
 }
 
 #[test]
@@ -126,16 +134,14 @@ fn a_peer_gets_the_request_and_its_mesh_is_judged() {
     assert_eq!(request["size"]["field"], "size.field");
     assert_eq!(request["size"]["scale"], 0.5);
     let row = row(folder.path(), "mesh");
-    let report = &row["report"];
-    assert_eq!((&row["outcome"], &report["triangles"]), (&"measured".into(), &2.into()));
-    assert_eq!(report["seconds"]["total"], 0.25, "its own clock");
-    assert_eq!(
-        (&report["rss_before_bytes"], &report["peak_rss_bytes"]),
-        (&1000.into(), &5000.into())
-    );
-    assert_eq!(report["outside"]["version"], "7.8");
-    assert_eq!(report["outside"]["set_up_seconds"]["imports"], 0.5);
-    assert_eq!(report["counts"]["rounds"], 3.0);
+    let report = row.report.expect("measured");
+    assert_eq!((row.outcome, report.statistics.triangles), (Outcome::Measured, 2));
+    let times = report.times.expect("timed");
+    assert_eq!(times.seconds.total, 0.25, "its own clock");
+    assert_eq!((times.rss_before_bytes, times.peak_rss_bytes), (1000, 5000));
+    let told = report.outside.expect("a peer");
+    assert_eq!((told.version.as_str(), told.set_up_seconds["imports"]), ("7.8", 0.5));
+    assert_eq!(report.counts["rounds"], 3.0);
     assert!(folder.path().join("mesh/try/README.md").exists());
 }
 
@@ -144,18 +150,18 @@ fn what_goes_wrong_becomes_a_row_with_its_reason() {
     let folder = prepared();
     install(folder.path());
     for (fake, outcome, reason) in [
-        ("decline", "declined", "no such domain"),
-        ("crash", "failed", "out of cheese"),
-        ("nothing", "failed", "answer.json"),
-        ("turned", "failed", "positive-orientation"),
+        ("decline", Outcome::Declined, "no such domain"),
+        ("crash", Outcome::Failed, "out of cheese"),
+        ("nothing", Outcome::Failed, "answer.json"),
+        ("turned", Outcome::Failed, "positive-orientation"),
     ] {
         assert_eq!(compare(folder.path(), fake, &[]).status.code(), Some(0), "{fake}");
         let row = row(folder.path(), fake);
-        let found = row["reason"].as_str().unwrap_or_default();
-        assert!(row["outcome"] == outcome && found.contains(reason), "{fake}: {row}");
+        let told = row.reason.unwrap_or_default();
+        assert!(row.outcome == outcome && told.contains(reason), "{fake}: {told}");
         assert_eq!(
-            row["report"].is_null(),
-            fake != "turned",
+            row.report.is_some(),
+            fake == "turned",
             "a mesh that does not conform keeps its numbers"
         );
     }

@@ -41,16 +41,13 @@ fn a_sweep_on_a_full_disk_is_reported_and_resumed() {
     let folder = folder();
     fs::write(folder.path().join("try.toml"), plan("")).expect("written");
     let output = on_a_full_disk(folder.path(), 24, &["sweep", "try.toml", "--threads", "1"]);
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    assert!(
-        message.contains("rows.jsonl") && !message.contains("panicked"),
-        "{message}"
-    );
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("journal.jsonl") && !told.contains("panicked"), "{told}");
     let (out, _) = run(folder.path(), &["sweep", "try.toml"], 0);
     assert!(out.contains("are done"), "rows from before are kept: {out}");
-    let text = fs::read_to_string(folder.path().join("results/try/rows.jsonl")).expect("rows");
-    assert_eq!(text.lines().count(), 18);
+    let text = fs::read_to_string(folder.path().join("results/try/meshes.csv")).expect("a table");
+    assert_eq!(text.lines().count(), 19);
 }
 
 #[test]
@@ -104,7 +101,7 @@ fn a_second_sweep_into_one_folder_is_reported() {
         .stderr(Stdio::null())
         .spawn()
         .expect("the program starts");
-    while !folder.path().join("results/try/rows.jsonl").exists() {
+    while !folder.path().join("results/try/journal.jsonl").exists() && first.try_wait().expect("known").is_none() {
         sleep(Duration::from_millis(1));
     }
     let second = Command::new(assert_cmd::cargo::cargo_bin!("biting"))
@@ -122,6 +119,6 @@ fn a_second_sweep_into_one_folder_is_reported() {
             "{message}"
         );
     }
-    let text = fs::read_to_string(folder.path().join("results/try/rows.jsonl")).expect("rows");
-    assert_eq!(text.lines().count(), 18);
+    let text = fs::read_to_string(folder.path().join("results/try/meshes.csv")).expect("a table");
+    assert_eq!(text.lines().count(), 19);
 }

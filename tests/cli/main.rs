@@ -68,7 +68,7 @@ fn bad_input_is_reported_in_one_message_with_file_line_and_remedy() {
         (&["figures", "--only", "figure9"], &["figure9", "figure1"]),
         (
             &["figures", "--only", "study-size"],
-            &["rows.jsonl", "--results", "--only"],
+            &["meshes.csv", "--results", "--only"],
         ),
         (&["mesh", "crossed.poly"], &["crossed.poly", "cross", "--repair"]),
         (&["mesh", "letters.poly"], &["letters.poly", "3"]),

@@ -9,7 +9,7 @@ use crate::suite::peers::{AnyEntry, PEERS};
 use crate::suite::rows::numbers::{distinct, median};
 use crate::suite::rows::record::parameter_text;
 use crate::suite::rows::record::{Cell, Outcome, Report, Row};
-use crate::suite::run::measure::complete;
+use crate::suite::rows::times::Times;
 
 /// A mesher with parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl Method {
         let mesher = &row.cell.mesher;
         let defaults = AnyEntry::find(mesher).map(|entry| entry.complete(&Parameters::new()));
         let defaults = defaults.unwrap_or_default();
-        let all = complete(&row.cell);
+        let all = row.cell.complete();
         let differing = all.iter().filter(|(name, value)| defaults.get(*name) != Some(value));
         let differing: Vec<String> = differing
             .map(|(name, value)| format!("{name}={}", parameter_text(value)))
@@ -279,7 +279,25 @@ fn in_number_order(a: &str, b: &str) -> std::cmp::Ordering {
         .then(a.len().cmp(&b.len()))
 }
 
-/// Seconds a triangle.
+impl Contest<'_> {
+    /// Those of some tasks on which all of the methods have a value: not all times can be believed. A method that has none on
+    /// any of them does not take part.
+    pub fn having(&self, methods: &[usize], tasks: &[usize], value: fn(&Report) -> Option<f64>) -> Vec<usize> {
+        let has = |method: usize, task: usize| self.report(method, task).and_then(value).is_some();
+        let takes_part = |method: &usize| tasks.iter().any(|&task| has(*method, task));
+        let methods: Vec<usize> = methods.iter().copied().filter(takes_part).collect();
+        let all_have = |task: &usize| methods.iter().all(|&method| has(method, *task));
+        tasks.iter().copied().filter(all_have).collect()
+    }
+}
+
+/// Why there is no time to quote of some reports, in two words.
+pub fn doubt<'a>(reports: impl IntoIterator<Item = &'a Report>) -> &'static str {
+    let mut times = reports.into_iter().filter_map(|report| report.times.as_ref());
+    times.find_map(Times::doubt).unwrap_or("not timed")
+}
+
+/// Seconds a triangle, where the seconds can be believed.
 pub fn seconds_per_triangle(report: &Report) -> Option<f64> {
-    Some(report.seconds.total / report.statistics.triangles as f64).filter(|seconds| seconds.is_finite())
+    Some(report.believable_seconds()? / report.statistics.triangles as f64).filter(|seconds| seconds.is_finite())
 }

@@ -74,7 +74,7 @@ pub fn samplings(contest: &Contest, about: &str) -> Vec<Sampling> {
             beta: contest.median(k, &common, |report| report.statistics.beta),
             gap_share: contest.median(k, &common, gap_share),
             triangles: over(|report| Some(report.statistics.triangles as f64)),
-            seconds: over(|report| Some(report.seconds.total)),
+            seconds: over(Report::believable_seconds),
             seconds_per_triangle: over(seconds_per_triangle),
         }
     };

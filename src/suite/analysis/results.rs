@@ -4,13 +4,14 @@
 use crate::suite::analysis::contest::Contest;
 use crate::suite::analysis::measures::{AT_EQUAL_COUNT, AT_EQUAL_SIZE, Measure, REASONS};
 use crate::suite::analysis::summary::{Grid, by_spacing};
-use crate::suite::rows::journal::{JournalError, read_rows};
-use crate::suite::rows::record::{ROWS, Row};
+use crate::suite::rows::journal::JournalError;
+use crate::suite::rows::record::Row;
+use crate::suite::rows::tables::{Made, RUN, TableError, Tables};
 use crate::suite::run::plan::{Expectations, Plan, PlanError, Section};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// The copy of its plan in a folder of results.
+/// The copy of its plan in a folder of tallied cases.
 pub const PLAN: &str = "plan.toml";
 
 /// Why there are no results.
@@ -19,9 +20,12 @@ pub enum ResultsError {
     /// The plan could not be read.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// The rows could not be read.
+    /// The tables could not be read.
     #[error(transparent)]
-    Rows(#[from] JournalError),
+    Tables(#[from] TableError),
+    /// The chunks of tallied cases could not be read.
+    #[error(transparent)]
+    Chunks(#[from] JournalError),
 }
 
 /// All methods asked alike.
@@ -49,30 +53,33 @@ pub struct Results {
     pub sections: BTreeMap<Section, BTreeSet<String>>,
     /// The sections whose first findings answer the question; none for the first that has any.
     pub headline: Vec<Section>,
+    /// Who made it.
+    pub made: Vec<Made>,
     /// Its rows.
     pub rows: Vec<Row>,
 }
 
 impl Results {
-    /// The rows of a plan.
-    pub fn new(plan: Plan, rows: Vec<Row>) -> Self {
+    /// What came of a plan.
+    pub fn new(plan: Plan, tables: Tables) -> Self {
         Self {
             question: plan.question.trim().to_owned(),
             about: plan.about,
             expect: plan.expect,
             sections: plan.sections,
             headline: plan.headline,
-            rows,
+            made: tables.run.made,
+            rows: tables.rows,
         }
     }
 
-    /// Reads plan and rows of a folder. The rows are sorted by what was asked, since cells that run side by side end in any order.
+    /// Reads the tables of a folder. The rows are sorted by what was asked, in whatever order the plan has its groups.
     ///
     /// # Errors
     /// [`ResultsError`]: a file that is not there, or a line in it that cannot be read.
     pub fn read(folder: &Path) -> Result<Self, ResultsError> {
-        let mut rows: Vec<Row> = read_rows(&folder.join(ROWS))?;
-        rows.sort_by(|a, b| {
+        let mut tables = Tables::read(folder)?;
+        tables.rows.sort_by(|a, b| {
             let names = |row: &Row| (row.group.clone(), row.cell.spacing.clone(), row.cell.domain.clone());
             let by_t = a.cell.t.total_cmp(&b.cell.t);
             names(a)
@@ -81,7 +88,8 @@ impl Results {
                 .then(a.cell.c_b.total_cmp(&b.cell.c_b))
                 .then(a.key.cmp(&b.key))
         });
-        Ok(Self::new(Plan::read(&folder.join(PLAN))?, rows))
+        let plan = Plan::parse(tables.run.plan.clone(), &folder.join(RUN))?;
+        Ok(Self::new(plan, tables))
     }
 
     /// The rows that a section shows.

@@ -45,15 +45,15 @@ pub fn order_groups<'a>(rows: &[&'a Row]) -> Vec<OrderGroup<'a>> {
 pub struct TimeSeries {
     /// The step's name, `whole mesh` for all of it.
     pub name: String,
-    /// (triangles, seconds), in row order.
+    /// (triangles, seconds) of runs whose times can be believed, in row order.
     pub points: Vec<(f64, f64)>,
 }
 
 impl TimeSeries {
     /// The whole runs of one method of a contest, the series named after it.
     pub fn of_method(contest: &Contest, method: usize) -> Self {
-        let point = |report: &Report| (report.statistics.triangles as f64, report.seconds.total);
-        let measured: Vec<_> = contest.rows(method).filter_map(measured).map(point).collect();
+        let point = |report: &Report| Some((report.statistics.triangles as f64, report.believable_seconds()?));
+        let measured: Vec<_> = contest.rows(method).filter_map(measured).filter_map(point).collect();
         let missing = contest.rows(method).count() - measured.len();
         let label = &contest.methods[method].label;
         Self {
@@ -76,7 +76,7 @@ impl TimeSeries {
     }
 }
 
-/// The whole run and each of its steps, over the measured rows.
+/// The whole run and each of its steps, over the measured rows whose times can be believed.
 pub fn time_series(rows: &[&Row]) -> Vec<TimeSeries> {
     let reports: Vec<&Report> = rows.iter().filter_map(|row| measured(row)).collect();
     let series = |name: &str, seconds: &dyn Fn(&Report) -> Option<f64>| TimeSeries {
@@ -86,15 +86,12 @@ pub fn time_series(rows: &[&Row]) -> Vec<TimeSeries> {
             .filter_map(|r| Some((r.statistics.triangles as f64, seconds(r)?)))
             .collect(),
     };
-    let steps = first_seen(
-        reports
-            .iter()
-            .flat_map(|report| report.seconds.steps.keys().map(String::as_str)),
-    );
-    let whole = series("whole mesh", &|report| Some(report.seconds.total));
+    let times = reports.iter().filter_map(|report| report.believable());
+    let steps = first_seen(times.flat_map(|times| times.seconds.steps.keys().map(String::as_str)));
+    let whole = series("whole mesh", &Report::believable_seconds);
     let parts = steps
         .into_iter()
-        .map(|step| series(step, &|report| report.seconds.steps.get(step)?.as_f64()));
+        .map(|step| series(step, &|report| report.believable()?.seconds.steps.get(step)?.as_f64()));
     std::iter::once(whole)
         .chain(parts)
         .filter(|series| !series.points.is_empty())

@@ -141,7 +141,7 @@ fn summary(report: &Report) -> Vec<String> {
             report.domain,
             statistics.triangles,
             statistics.vertices,
-            report.seconds.total,
+            report.times.as_ref().map_or(0.0, |times| times.seconds.total),
             report.mesher,
             params.join(", "),
             report.spacing,

@@ -97,7 +97,7 @@ impl Watch for Progress {
     fn row(&self, row: &Row, weight: f64) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         // A repeat of a timed cell writes its row again; the cell counts once.
-        state.rows += usize::from(row.samples.len() <= 1);
+        state.rows += usize::from(row.repeats() <= 1);
         state.weight += weight;
         self.bar.set_position(state.weight as u64);
         self.bar.set_message(row.key.clone());

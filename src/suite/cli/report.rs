@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The experiment's folder, with its rows.jsonl
+    /// The experiment's folder, with its tables
     #[arg(default_value = "results/sweep")]
     folder: PathBuf,
 }

@@ -54,6 +54,15 @@ pub fn join<R: Record>(folder: &Path, whole: &str, keys: &[String]) -> Result<Ve
     Ok(journal.lines().iter().map(|line| line.row.clone()).collect())
 }
 
+/// Removes the journal of all and those of the shards, whose rows are in tables now.
+pub fn remove(folder: &Path, whole: &str) -> Result<(), Failure> {
+    let files = shard_files(folder, whole)?.into_iter().chain([folder.join(whole)]);
+    for file in files {
+        std::fs::remove_file(&file).map_err(|cause| Failure::Input(format!("{}: {cause}", file.display())))?;
+    }
+    Ok(())
+}
+
 /// The rows of shards in a folder, by name.
 fn shard_files(folder: &Path, whole: &str) -> Result<Vec<PathBuf>, Failure> {
     let stem = format!("{}.", whole.trim_end_matches(".jsonl"));

@@ -5,20 +5,20 @@ use super::exit::{Failure, Outcome};
 use super::list::EXPERIMENTS;
 use super::output::{say, say_aside};
 use super::progress::Progress;
-use super::shards::{file_name, join, say_done};
+use super::shards::{self, file_name, join, say_done};
 use super::values::bytes;
 use crate::suite::analysis::expect::{Finding, anything_measured, findings};
-use crate::suite::analysis::results::{PLAN, Results};
-use crate::suite::files::write_whole;
-use crate::suite::rows::journal::{Journal, Record};
+use crate::suite::analysis::results::Results;
+use crate::suite::rows::journal::{JOURNAL, Journal, Record};
 use crate::suite::rows::machine;
-use crate::suite::rows::record::{self, Cell, Provenance, Row};
-use crate::suite::run::measure;
+use crate::suite::rows::record::{Cell, Provenance, Row};
+use crate::suite::rows::tables::Tables;
 use crate::suite::run::plan::{Plan, PlannedCell};
 use crate::suite::run::prepare::Store;
 use crate::suite::run::runner::{self, Sweep};
 use crate::suite::run::tally::CHUNKS;
 use crate::suite::run::work::{self, Shard, Task};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Of the memory that is free when a sweep starts, cells that run side by side use at most this share.
@@ -43,11 +43,14 @@ pub struct Arguments {
     /// Run the I-th of N parts; `sweep merge` joins them
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
+    /// Only the cells that are timed alone; all other lines of the tables stay
+    #[arg(long, conflicts_with = "shard")]
+    timed: bool,
 }
 
 #[derive(clap::Subcommand)]
 enum Part {
-    /// Join the rows of all shards, then draw charts and write the page
+    /// Join what all shards measured: tables, charts and page
     Merge(Place),
 }
 
@@ -68,7 +71,7 @@ pub struct Place {
 /// How cells are run.
 #[derive(clap::Args)]
 pub struct How {
-    /// Start anew; rows that are there are kept under another name
+    /// Start anew also where a run was stopped; what it had measured is kept under another name
     #[arg(long)]
     fresh: bool,
     /// Print the cells and an estimate of the time, and run nothing
@@ -108,14 +111,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let plan = arguments.place.plan(DEFAULT)?;
     let folder = arguments.place.folder(&plan);
     if plan.tallied().next().is_none() {
-        run_cells(&plan, &folder, &arguments.how, arguments.shard, |_| true)
+        run_cells(&plan, &folder, &arguments.how, arguments.shard, |cell| {
+            cell.timed || !arguments.timed
+        })
     } else {
         battery::run(&plan, &folder, &arguments.of_battery())
     }
 }
 
-/// Runs those of a plan's cells that are wanted and have no row, or the part of them that a shard has; then, but for a
-/// shard, draws charts and page from all rows there are.
+/// Runs those of a plan's cells that are wanted and that a stopped run has not measured, or the part of them that a shard has;
+/// then, but for a shard, writes tables, charts and page.
 pub fn run_cells(
     plan: &Plan,
     folder: &Path,
@@ -139,18 +144,36 @@ pub fn run_cells(
         );
     }
     let provenance = machine::provenance();
-    let mut journal = open(&folder.join(file_name(record::ROWS, shard)))?;
+    let mut journal = open(&folder.join(file_name(JOURNAL, shard)))?;
     start_anew_if_needed(how.fresh, &all, &mut journal, &provenance)?;
     how.run_pending(plan, &cells, shard, &store, &mut journal, &provenance)?;
-    journal
-        .settle(all.iter().map(|planned| planned.key.as_str()))
-        .map_err(Failure::input)?;
     if let Some(shard) = shard {
         say_done(shard);
         return Ok(());
     }
     let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
-    finish(plan, folder, rows)
+    let tables = write_tables(plan, folder, &all, &rows)?;
+    journal.remove().map_err(Failure::input)?;
+    finish(plan, folder, tables)
+}
+
+/// Writes the tables of a run that is finished; [`crate::suite::rows::tables`] says which lines of earlier ones stay.
+fn write_tables(plan: &Plan, folder: &Path, cells: &[PlannedCell], rows: &[Row]) -> Result<Tables, Failure> {
+    let by_key: HashMap<&str, &PlannedCell> = cells.iter().map(|planned| (planned.key.as_str(), planned)).collect();
+    let is_final = |row: &Row| {
+        by_key
+            .get(row.key.as_str())
+            .is_some_and(|planned| runner::is_final(planned, row))
+    };
+    let is_whole = rows.iter().filter(|row| is_final(row)).count() == cells.len();
+    let earlier = match is_whole || !Tables::are_in(folder) {
+        true => None,
+        false => Some(Tables::read(folder).map_err(Failure::input)?),
+    };
+    let keys = cells.iter().map(|planned| planned.key.as_str());
+    let tables = Tables::gather(&plan.text, keys, rows, is_final, earlier);
+    tables.write(folder).map_err(Failure::input)?;
+    Ok(tables)
 }
 
 /// Opens a file of rows or chunks, and tells what a kill left in it.
@@ -195,7 +218,9 @@ impl How {
     ) -> Outcome {
         let done = cells.iter().filter(|planned| runner::is_done(planned, journal)).count();
         if done == cells.len() {
-            say(format_args!("all {done} cells have rows; --fresh measures them anew"));
+            say(format_args!(
+                "all {done} cells were measured by a run that was stopped; --fresh measures them anew"
+            ));
             return Ok(());
         }
         let mut tasks = tasks(plan, cells, store, self.threads())?;
@@ -230,25 +255,26 @@ impl How {
     }
 }
 
-/// Rows are resumed where an unfinished run on a machine like this one left them. Rows of another machine, or a whole
-/// set of rows by another version of the code, are kept under another name.
+/// A run that was stopped is resumed on a machine like its own. What was measured on another machine, or all of it by another
+/// version of the code, is kept under another name.
 fn start_anew_if_needed(fresh: bool, cells: &[PlannedCell], journal: &mut Journal, provenance: &Provenance) -> Outcome {
     let reports = || journal.lines().iter().filter_map(|line| line.row.report.as_ref());
     let complete = cells.iter().all(|planned| runner::is_done(planned, journal));
-    let elsewhere = reports().any(|report| !machine::same_machine(&report.provenance, provenance));
-    let other_code = reports().any(|report| report.provenance.commit != provenance.commit);
+    let mades = || reports().filter_map(|report| report.provenance.as_ref());
+    let elsewhere = mades().any(|made| !machine::same_machine(made, provenance));
+    let other_code = mades().any(|made| made.commit != provenance.commit);
     let reason = if fresh {
         "--fresh"
     } else if elsewhere {
-        "they were made on another machine"
+        "it was measured on another machine"
     } else if complete && other_code {
-        "they are complete and were made by another commit"
+        "it is complete and was measured by another commit"
     } else {
         return Ok(());
     };
     if let Some(kept) = journal.set_aside(&provenance.date).map_err(Failure::input)? {
         say(format_args!(
-            "starting anew ({reason}); the rows that were there are now {}",
+            "starting anew ({reason}); what a stopped run measured is now {}",
             kept.display()
         ));
     }
@@ -257,7 +283,7 @@ fn start_anew_if_needed(fresh: bool, cells: &[PlannedCell], journal: &mut Journa
 
 fn tasks(plan: &Plan, cells: &[PlannedCell], store: &Store, threads: usize) -> Result<Vec<Task>, Failure> {
     store.survey(cells.iter().map(|planned| &planned.cell), threads);
-    work::tasks(cells, |cell| store.outlook(cell), measure::complete)
+    work::tasks(cells, |cell| store.outlook(cell), Cell::complete)
         .map_err(|error| Failure::Input(format!("{}: {error}", plan.file.display())))
 }
 
@@ -300,18 +326,19 @@ fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -
 fn merge(plan: &Plan, folder: &Path) -> Outcome {
     if plan.tallied().next().is_none() {
         let cells = plan.cells().map_err(Failure::input)?;
-        let keys: Vec<String> = cells.into_iter().map(|planned| planned.key).collect();
-        finish(plan, folder, join(folder, record::ROWS, &keys)?)
+        let keys: Vec<String> = cells.iter().map(|planned| planned.key.clone()).collect();
+        let tables = write_tables(plan, folder, &cells, &join(folder, JOURNAL, &keys)?)?;
+        shards::remove(folder, JOURNAL)?;
+        finish(plan, folder, tables)
     } else {
         battery::finish(plan, folder, &join(folder, CHUNKS, &battery::keys(plan))?)
     }
 }
 
-/// Charts, page and verdict, once every cell has a row.
-fn finish(plan: &Plan, folder: &Path, rows: Vec<Row>) -> Outcome {
-    let copy = folder.join(PLAN);
-    write_whole(&copy, plan.text.as_bytes()).map_err(|cause| Failure::Input(format!("{}: {cause}", copy.display())))?;
-    if !anything_measured(&rows) {
+/// Charts, page and verdict, once there are tables.
+fn finish(plan: &Plan, folder: &Path, tables: Tables) -> Outcome {
+    let rows = &tables.rows;
+    if !anything_measured(rows) {
         let reason = rows
             .iter()
             .find_map(|row| row.reason.as_deref())
@@ -319,7 +346,7 @@ fn finish(plan: &Plan, folder: &Path, rows: Vec<Row>) -> Outcome {
         return Err(Failure::NothingMeasured(format!("nothing could be measured: {reason}")));
     }
     super::report::write(folder)?;
-    tell(&findings(&Results::new(plan.clone(), rows)))
+    tell(&findings(&Results::new(plan.clone(), tables)))
 }
 
 /// Tells what was expected and what came out.

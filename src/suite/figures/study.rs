@@ -154,16 +154,21 @@ pub(super) fn time(material: &Material) -> Result<Drawing<'_>, String> {
     };
     let (shown, left_out): (Vec<_>, Vec<_>) = series.iter().cloned().partition(|series| share(series) >= LEAST_SHARE);
     let left_out: Vec<String> = left_out.iter().map(|series| series.name.replace('_', " ")).collect();
-    let slope = |series: &TimeSeries| series.fit().map_or(f64::NAN, |line| line.slope);
+    let growth = match whole.fit().zip(triangulation.fit()) {
+        Some((whole, part)) => format!(
+            "The whole grows as triangles to the power {}, the triangulation to {}",
+            short(whole.slope),
+            short(part.slope)
+        ),
+        None => "They are too few to fit a line".into(),
+    };
 
     let caption = format!(
         "Time of biting for each triangle of the mesh against its size, whole and by step, the Delaunay triangulation's own among the \
-         steps; with fitted lines and their slopes. {} timed runs on one core; f and its limiting are made before and not counted. \
-         The whole grows as triangles to the power {}, the triangulation to {}; the triangulation takes {} % of it in the median. \
+         steps; with fitted lines and their slopes. Runs on one core whose repeats spread by less than 0.1 of their median: {}; f and its \
+         limiting are made before and not counted. {growth}; the triangulation takes {} % of it in the median. \
          Not drawn, since they take less than {} %: {}.",
         whole.points.len(),
-        short(slope(whole)),
-        short(slope(triangulation)),
         short(100.0 * share(triangulation)),
         short(100.0 * LEAST_SHARE),
         left_out.join(", ")

@@ -1,9 +1,9 @@
-//! The judgement on meshes: the worst margin of every check over the committed rows.
+//! The judgement on meshes: the worst margin of every check over the committed tables.
 
 use super::record::{Measured, Statement};
 use crate::suite::analysis::summary::{parameter, rounded};
-use crate::suite::rows::journal::{JournalError, read_rows};
 use crate::suite::rows::record::{Outcome, Report, Row};
+use crate::suite::rows::tables::{TableError, Tables};
 use std::path::Path;
 
 /// The rows of meshes by biting, of all experiments in a results folder.
@@ -18,8 +18,6 @@ pub struct Worst {
     pub ratio: f64,
     /// Experiment and cell.
     pub seen: String,
-    /// Where in the domain, if it is somewhere.
-    pub at: Option<[f64; 2]>,
     /// t of that cell, as its spacing has it.
     pub t: f64,
     /// How many meshes were measured, their hypotheses holding.
@@ -27,16 +25,16 @@ pub struct Worst {
 }
 
 impl Meshes {
-    /// Reads `rows.jsonl` of every experiment's folder in `results`, which has a plan, but those of quick runs.
+    /// Reads the tables of every experiment's folder in `results`, but those of quick runs.
     ///
     /// # Errors
     /// A file that cannot be read.
-    pub fn read(results: &Path) -> Result<Self, JournalError> {
+    pub fn read(results: &Path) -> Result<Self, TableError> {
         let mut folders: Vec<_> = std::fs::read_dir(results)
             .into_iter()
             .flatten()
             .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| ["plan.toml", "rows.jsonl"].iter().all(|name| path.join(name).is_file()))
+            .filter(|path| Tables::are_in(path))
             .collect();
         folders.sort();
         let mut rows = Vec::new();
@@ -45,7 +43,7 @@ impl Meshes {
             if name.ends_with("-quick") {
                 continue;
             }
-            let read: Vec<Row> = read_rows(&folder.join("rows.jsonl"))?;
+            let read = Tables::read(&folder)?.rows;
             let is_the_papers = |row: &Row| row.cell.mesher == "biting" && parameter(row, "rule") != Some("later");
             let by_biting = read
                 .into_iter()
@@ -69,7 +67,6 @@ impl Meshes {
         Some(Worst {
             ratio: worst.value / worst.bound,
             seen: format!("{}: {}", worst.experiment, worst.key),
-            at: worst.at,
             t: worst.report.t_effective,
             meshes: seen.len(),
         })
@@ -112,7 +109,6 @@ impl Meshes {
                 report,
                 value: check.worst?,
                 bound: check.bound?,
-                at: check.at,
             };
             (check.applies && seen.bound > 0.0).then_some(seen)
         })
@@ -129,5 +125,4 @@ struct Seen<'a> {
     report: &'a Report,
     value: f64,
     bound: f64,
-    at: Option<[f64; 2]>,
 }

@@ -34,9 +34,8 @@ pub fn write(root: &Path) -> Result<(Vec<Line>, Vec<PathBuf>), String> {
     let results = root.join("results");
     let meshes = Meshes::read(&results).map_err(|error| error.to_string())?;
     let lines = table::judge_all(&meshes, None);
-    let rows: String = lines.iter().map(|line| line.row().to_string() + "\n").collect();
     let files = [
-        (results.join("lemmas/rows.jsonl"), rows),
+        (results.join("lemmas/statements.csv"), table::optima_table(&lines)),
         (
             results.join("lemmas/README.md"),
             table::page(&lines, &meshes, &nearest::again(root)?),

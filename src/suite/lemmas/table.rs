@@ -1,4 +1,4 @@
-//! All statements judged, as rows and as the page `results/lemmas/README.md`.
+//! All statements judged, as a table and as the page `results/lemmas/README.md`.
 
 use super::judge::{Judged, Verdict, grid, optima, verdict};
 use super::measured::{Meshes, Worst};
@@ -7,7 +7,7 @@ use super::record::{Bound, Statement};
 use super::statements;
 use crate::suite::charts::BoundFigure;
 use crate::suite::report::markdown::{number, table};
-use serde_json::{Value, json};
+use crate::suite::rows::tables::column::{Column, number as digits, write};
 
 /// Steps of the grid of the parameter.
 pub const STEPS: usize = 10;
@@ -48,35 +48,6 @@ impl Line {
             Some(corrected) => corrected.holds() && !matches!(self.printed, Verdict::Open { .. }),
             None => self.printed.holds(),
         }
-    }
-
-    /// The row of `rows.jsonl`.
-    pub fn row(&self) -> Value {
-        let statement = &self.statement;
-        let at = |judged: &Judged| {
-            json!({
-                "parameter": judged.parameter,
-                "printed": (statement.printed.at)(judged.parameter),
-                "corrected": statement.corrected.map(|corrected| (corrected.bound.at)(judged.parameter)),
-                "optimum": judged.optimum.found,
-                "proved": judged.optimum.proved,
-                "unknowns": judged.optimum.at,
-                "boxes": judged.optimum.boxes,
-            })
-        };
-        json!({
-            "statement": statement.name,
-            "place": statement.place,
-            "quantity": statement.quantity,
-            "printed": statement.printed.says,
-            "corrected": statement.corrected.map(|corrected| corrected.bound.says),
-            "verdict": self.printed.word(),
-            "corrected_verdict": self.corrected.as_ref().map(Verdict::word),
-            "grid": self.judged.iter().map(at).collect::<Vec<_>>(),
-            "measured": self.worst.as_ref().map(|worst| json!({
-                "ratio": worst.ratio, "seen": worst.seen, "at": worst.at, "t": worst.t, "meshes": worst.meshes,
-            })),
-        })
     }
 
     /// The figure: printed formula, corrected one, optima, worst on meshes; none where there is no range to draw over.
@@ -214,20 +185,49 @@ pub fn page(lines: &[Line], meshes: &Meshes, nearest: &[Found]) -> String {
     lines.iter().fold(text, |text, line| text + &needs(&line.statement))
 }
 
+/// `statements.csv`: a line for each statement and parameter of the grid.
+pub fn optima_table(lines: &[Line]) -> String {
+    type At<'a> = (&'a Statement, &'a Judged);
+    let column = |name, about, value: fn(&At) -> Option<String>| Column::new(name, about, value);
+    let columns = [
+        column("statement", "its name", |(statement, _)| Some(statement.name.into())),
+        column("parameter", "what the bound is a function of", |(_, judged)| {
+            Some(digits(judged.parameter))
+        }),
+        column("printed", "the printed formula", |(statement, judged)| {
+            Some(digits((statement.printed.at)(judged.parameter)))
+        }),
+        column("corrected", "the corrected one", |(statement, judged)| {
+            Some(digits((statement.corrected?.bound.at)(judged.parameter)))
+        }),
+        column("optimum", "the optimum found", |(_, judged)| {
+            Some(digits(judged.optimum.found))
+        }),
+        column("proved", "what no configuration passes", |(_, judged)| {
+            Some(digits(judged.optimum.proved))
+        }),
+        column("boxes", "boxes that the search needed", |(_, judged)| {
+            Some(judged.optimum.boxes.to_string())
+        }),
+    ];
+    let grid = lines
+        .iter()
+        .flat_map(|line| line.judged.iter().map(move |judged| (&line.statement, judged)));
+    write(&columns, &grid.collect::<Vec<_>>())
+}
+
 fn where_seen(lines: &[Line]) -> String {
     let cells = |(line, worst): (&Line, &Worst)| {
-        let at = worst.at.map_or("–".into(), |[x, y]| format!("({x:.6}, {y:.6})"));
         vec![
             line.statement.place.into(),
             number(worst.ratio),
             worst.seen.clone(),
             number(worst.t),
-            at,
         ]
     };
     let seen = lines.iter().filter_map(|line| Some((line, line.worst.as_ref()?)));
     table(
-        &["statement", "worst / bound", "cell", "t", "at"],
+        &["statement", "worst / bound", "cell", "t"],
         &seen.map(cells).collect::<Vec<_>>(),
     )
 }

@@ -10,7 +10,6 @@ use crate::suite::figures::labels::{self, Label};
 use crate::suite::replay::outline;
 use crate::suite::rows::record::Cell;
 use crate::suite::rows::record::{parameter_text, quoted};
-use crate::suite::run::measure;
 use crate::suite::run::prepare::Prepared;
 use crate::theory::{Promises, Rule};
 use serde::{Deserialize, Serialize};
@@ -164,10 +163,7 @@ fn about(cell: &Cell, prepared: &Prepared, mesh: &Mesh) -> About {
     let domain = &*prepared.site.domain;
     let (statistics, _) = quality::judge(domain, mesh, None);
     let t = prepared.case(cell.c_b).t();
-    let order = measure::complete(cell)
-        .get("order")
-        .map(parameter_text)
-        .unwrap_or_default();
+    let order = cell.complete().get("order").map(parameter_text).unwrap_or_default();
     About {
         domain: domain.name().into(),
         spacing: prepared.spacing.spec.clone(),

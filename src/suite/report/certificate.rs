@@ -207,7 +207,7 @@ pub(super) fn text(results: &Results) -> String {
             text += &table(&head, &lines[..lines.len().min(MOST_LINES)]);
         }
         if lines.len() > MOST_LINES {
-            text += &format!("and {} more in `rows.jsonl`.\n\n", lines.len() - MOST_LINES);
+            text += &format!("and {} more in `broken.csv`.\n\n", lines.len() - MOST_LINES);
         }
     }
     text + &Hypothesis::of(results).text()

@@ -3,15 +3,16 @@
 use super::drawer::Drawer;
 use super::markdown::{degrees, number, parameter, table};
 use super::meshes::{file_name, made_again};
+use crate::domain::Domain;
 use crate::geometry::DVec2;
 use crate::mesh::Mesh;
+use crate::quality::shape::angles_deg;
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::measured;
 use crate::suite::charts::{ChartError, side_by_side, window};
 use crate::suite::rows::numbers::{first_seen, spread};
 use crate::suite::rows::record::{Report, Row};
 use crate::suite::run::plan::Section;
-use crate::theory::Claim;
 
 /// Two rows that differ in what is done about corners.
 struct Pair<'a> {
@@ -144,7 +145,10 @@ pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), Chart
         let [Some(bitten), Some(cut)] = made else {
             continue;
         };
-        let Some((place, edge)) = worst(&bitten, pair.reports[0]) else {
+        let Ok(own) = drawer.store.domain(&pair.rows[0].cell.domain) else {
+            continue;
+        };
+        let Some((place, edge)) = worst(&bitten, &own) else {
             continue;
         };
         let told = |what: &str, report: &Report| {
@@ -174,10 +178,12 @@ pub(super) fn charts(results: &Results, drawer: &mut Drawer) -> Result<(), Chart
 }
 
 /// Where the smallest angle beyond corners is, and the longest edge of that triangle.
-fn worst(mesh: &Mesh, report: &Report) -> Option<(DVec2, f64)> {
-    let at = DVec2::from(report.certificate.check(Claim::MinAngle)?.at?);
-    let centroid = |t: usize| mesh.corners(t).iter().sum::<DVec2>() / 3.0;
-    let near = |a: &usize, b: &usize| centroid(*a).distance(at).total_cmp(&centroid(*b).distance(at));
-    let [a, b, c] = mesh.corners((0..mesh.triangles.len()).min_by(near)?);
-    Some((at, a.distance(b).max(b.distance(c)).max(c.distance(a))))
+fn worst(mesh: &Mesh, domain: &Domain) -> Option<(DVec2, f64)> {
+    // Input vertices come first in a mesh, in order.
+    let is_excused = |k: &u32| domain.acute_vertices().contains(&(*k as usize));
+    let free = (0..mesh.triangles.len()).filter(|&t| !mesh.triangles[t].iter().any(is_excused));
+    let smallest = |t: usize| angles_deg(mesh.corners(t)).into_iter().fold(180.0, f64::min);
+    let [a, b, c] = mesh.corners(free.min_by(|&one, &other| smallest(one).total_cmp(&smallest(other)))?);
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    Some(((a + b + c) / 3.0, longest))
 }

@@ -1,9 +1,11 @@
 //! Made-up rows: a small sweep whose numbers follow a formula, so that findings can be worked out by hand.
 
 use crate::quality::{Certificate, Check, Statistics};
-use crate::suite::analysis::results::{PLAN, Results};
+use crate::suite::analysis::results::Results;
 use crate::suite::rows::numbers::first_seen;
-use crate::suite::rows::record::{Cell, Outcome, Provenance, ROWS, Report, Row, Seconds};
+use crate::suite::rows::record::{Cell, Outcome, Provenance, Report, Row};
+use crate::suite::rows::tables::{Made, RunFile, Tables};
+use crate::suite::rows::times::{Seconds, Times};
 use crate::theory::Claim;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
@@ -51,9 +53,7 @@ pub(super) fn row(group: &str, domain: &str, spacing: &str, t: f64, c_b: f64, or
             timed: group == "time",
             ..Cell::new(domain, "biting", spacing, t, c_b)
         },
-        samples: Vec::new(),
         tries: Vec::new(),
-        same_as: None,
         report: None,
     }
 }
@@ -71,9 +71,6 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
     ];
     let steps = steps.map(|(name, share)| (name.to_string(), Value::from(share * seconds)));
     row.outcome = Outcome::Measured;
-    if cell.timed {
-        row.samples = vec![0.9 * seconds, seconds, 1.1 * seconds];
-    }
     row.reason = None;
     row.report = Some(Report {
         domain: cell.domain.clone(),
@@ -96,22 +93,35 @@ pub(super) fn measured(mut row: Row, angle: f64, triangles: usize, margin: f64) 
         size_ratio_lfs: 2.3 / (cell.t.max(0.05) * cell.c_b),
         size_efficiency: 0.9 - 0.2 * cell.t + 0.05 * noise(&row.key),
         min_angle_bound_deg: bound,
-        fingerprint: String::new(),
+        fingerprint: format!("made up: {}", row.key),
         statistics: statistics(triangles, bound + margin),
-        seconds: Seconds {
-            total: seconds,
-            steps: Map::from_iter(steps),
-        },
-        peak_rss_bytes: 1 << 24,
+        times: Some(Times {
+            seconds: Seconds {
+                total: seconds,
+                steps: Map::from_iter(steps),
+            },
+            samples: vec![0.97 * seconds, seconds, 1.02 * seconds],
+            rss_before_bytes: 0,
+            peak_rss_bytes: 1 << 24,
+        }),
         counts: BTreeMap::new(),
-        rss_before_bytes: 0,
         outside: None,
         poisson: None,
         rounds: Vec::new(),
         poisson_failed: None,
         certificate: certificate(bound + margin, bound),
-        provenance: provenance(),
+        provenance: Some(provenance()),
     });
+    row
+}
+
+/// The same, having run alone for so many seconds.
+pub(super) fn timed(mut row: Row, seconds: f64) -> Row {
+    if let Some(report) = &mut row.report {
+        let times = report.times.get_or_insert_default();
+        times.samples = vec![0.97 * seconds, seconds, 1.02 * seconds];
+        times.seconds.total = seconds;
+    }
     row
 }
 
@@ -244,12 +254,18 @@ fn plan(rows: &[Row]) -> String {
     "question = \"What comes out?\"\n".to_owned() + &groups.collect::<String>()
 }
 
-/// Writes rows and their plan as a run leaves them.
+/// Writes the tables of rows and their plan, as a run leaves them.
 pub(super) fn leave(rows: &[Row], folder: &Path) {
-    std::fs::create_dir_all(folder).expect("a folder");
-    let line = |row: &Row| serde_json::to_string(row).expect("rows are plain data") + "\n";
-    std::fs::write(folder.join(ROWS), rows.iter().map(line).collect::<String>()).expect("written");
-    std::fs::write(folder.join(PLAN), plan(rows)).expect("written");
+    let made = Made {
+        by: provenance(),
+        until: provenance().date,
+    };
+    let run = RunFile {
+        plan: plan(rows),
+        made: vec![made],
+    };
+    let rows = rows.to_vec();
+    Tables { rows, run }.write(folder).expect("written");
 }
 
 /// Rows with their plan, in the order in which they stand here.

@@ -3,7 +3,7 @@
 use super::drawer::Drawer;
 use super::markdown::{number, parameter, table, told, value};
 use super::meshes::side_by_side;
-use crate::suite::analysis::contest::{Asked, Contest};
+use crate::suite::analysis::contest::{Asked, Contest, doubt};
 use crate::suite::analysis::measures::{
     BETA, EDGES, MEAN_ANGLE, MIN_ANGLE, Measure, P05_ANGLE, SIZE_EFFICIENCY, TIME, TRIANGLES, UNDER_20, UNDER_30,
 };
@@ -12,7 +12,7 @@ use crate::suite::analysis::series::TimeSeries;
 use crate::suite::analysis::summary::measured;
 use crate::suite::charts::{self, ChartError};
 use crate::suite::rows::numbers::{distinct, first_seen, quantile};
-use crate::suite::rows::record::Outcome;
+use crate::suite::rows::record::{Outcome, Report};
 use crate::suite::run::plan::Section;
 use crate::suite::run::tune::{NEAR, is_near};
 
@@ -143,7 +143,10 @@ fn method_table(contest: &Contest, time: &Contest) -> String {
             0 => "0".to_string(),
             some => format!("{some} of {asked}"),
         };
-        let median = |by: &Measure| value(by, contest.median(k, &common, by.value));
+        let median = |by: &Measure| match *by == TIME {
+            true => micros(contest, k, &common),
+            false => value(by, contest.median(k, &common, by.value)),
+        };
         let label = &contest.methods[k].label;
         let timed = time.methods.iter().position(|method| method.label == *label);
         let growth = timed.and_then(|k| Some(TimeSeries::of_method(time, k).fit()?.slope));
@@ -159,22 +162,24 @@ fn method_table(contest: &Contest, time: &Contest) -> String {
     let mut head = vec!["mesher", "measured", "skipped", "declined", "failed"];
     head.extend(labels.iter().map(String::as_str));
     head.extend(["smallest angle of all (°)", "growth of time"]);
-    let alone = contest
-        .all()
-        .into_iter()
-        .flat_map(|k| contest.rows(k))
-        .all(|row| row.cell.timed);
-    let caution = if alone {
-        ""
-    } else {
-        " These cells ran beside one another, so their times are rough."
-    };
     format!(
         "{} of {} tasks were measured by all. Smallest angles leave out triangles at input angles under 60°; growth is the \
-         slope of log seconds against log triangles, from cells timed alone.{caution}\n\n",
+         slope of log seconds against log triangles. Times are of cells that ran alone, with repeats that spread by less than 0.1 of \
+         their median.\n\n",
         common.len(),
         contest.tasks.len()
     ) + &table(&head, &lines)
+}
+
+/// Median time a triangle over some tasks: of how many, where not all times can be believed.
+fn micros(contest: &Contest, method: usize, tasks: &[usize]) -> String {
+    let values = contest.values(method, tasks, TIME.value);
+    let (quiet, all) = (values.len(), tasks.len());
+    match quantile(values, 0.5) {
+        Some(micros) if quiet == all => number(micros),
+        Some(micros) => format!("{} ({quiet} of {all})", number(micros)),
+        None => doubt(contest.rows(method).filter_map(measured)).into(),
+    }
 }
 
 /// Smallest and mean angle and size efficiency for each t and c_b, where there are several.
@@ -231,7 +236,7 @@ fn time_table(time: &Contest) -> String {
         };
         let ends = [by_count(true), by_count(false)];
         let each = ends.map(|end| number(end.map(|(triangles, seconds)| 1e6 * seconds / triangles)));
-        let ratios = time.pairs([0, k], |report| Some(report.seconds.total));
+        let ratios = time.pairs([0, k], Report::believable_seconds);
         let ratios: Vec<f64> = ratios.iter().map(|(_, [first, own])| own / first).collect();
         vec![
             time.methods[k].label.clone(),

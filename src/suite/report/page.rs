@@ -7,6 +7,7 @@ use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{by_spacing, measured};
 use crate::suite::rows::numbers::{first_seen, quantile, spread};
 use crate::suite::rows::record::{Outcome, Row};
+use crate::suite::rows::tables::Made;
 use crate::suite::run::plan::Section;
 
 /// The whole page of an experiment: `charts` has what was drawn for each of its sections.
@@ -101,7 +102,7 @@ fn what_was_run(results: &Results, name: &str) -> String {
         let own: Vec<&Row> = rows.iter().filter(|row| row.cell.domain == *domain).collect();
         line(domain, &own)
     });
-    let mut text = String::from("## What was run\n\n") + &provenance(rows, name);
+    let mut text = String::from("## What was run\n\n") + &provenance(results, name);
     text += &table(&head("group of cells"), &by_group);
     if meshers.len() > 1 {
         text += &table(&head("mesher"), &by_mesher.collect::<Vec<_>>());
@@ -140,13 +141,9 @@ fn meaning(title: &str, rows: &[&Row]) -> String {
 /// Verbs whose own plan is that of their name.
 const VERBS: [&str; 2] = ["sweep", "compare"];
 
-/// Command, version, machine and date of the measured rows.
-fn provenance(rows: &[Row], name: &str) -> String {
-    let provenances: Vec<_> = rows
-        .iter()
-        .filter_map(measured)
-        .map(|report| &report.provenance)
-        .collect();
+/// Command, version, machine and dates.
+fn provenance(results: &Results, name: &str) -> String {
+    let made = &results.made;
     let all = |text: Vec<String>| first_seen(text.iter().map(String::as_str)).join("; ");
     let command = match name.strip_suffix("-quick") {
         Some(plan) if VERBS.contains(&plan) => format!("{plan} --quick"),
@@ -154,32 +151,31 @@ fn provenance(rows: &[Row], name: &str) -> String {
         None if VERBS.contains(&name) => name.to_string(),
         None => format!("sweep experiments/{name}.toml"),
     };
-    let versions = provenances.iter().map(|made| {
-        let commit: String = made.commit.chars().take(12).collect();
-        let dirty = if made.dirty { " with changes" } else { "" };
-        format!("biting {} {commit}{dirty}, {}", made.version, made.rustc)
+    let versions = made.iter().map(|Made { by, .. }| {
+        let commit: String = by.commit.chars().take(12).collect();
+        let dirty = if by.dirty { " with changes" } else { "" };
+        format!("biting {} {commit}{dirty}, {}", by.version, by.rustc)
     });
-    let machines = provenances
+    let machines = made
         .iter()
-        .map(|made| format!("{}, {} cores, {}", made.cpu, made.cores, made.os));
-    let mut dates: Vec<&str> = provenances.iter().map(|made| made.date.as_str()).collect();
-    dates.sort_unstable();
-    let days = [dates.first(), dates.last()].map(|date| date.map(|date| date.chars().take(16).collect::<String>()));
-    let [first, last] = days.map(Option::unwrap_or_default);
-    let memory = rows
-        .iter()
-        .filter_map(measured)
-        .map(|report| report.peak_rss_bytes as f64 / f64::from(1 << 20));
-    let lines = [
+        .map(|Made { by, .. }| format!("{}, {} cores, {}", by.cpu, by.cores, by.os));
+    let minute = |date: &str| date.chars().take(16).collect::<String>();
+    let first = made.iter().map(|made| minute(&made.by.date)).min();
+    let last = made.iter().map(|made| minute(&made.until)).max();
+    let mut lines = vec![
         ("Command", format!("`cargo run --release -- {command}`")),
         ("Version", all(versions.collect())),
         ("Machine", all(machines.collect())),
-        ("Run", format!("{first} to {last} UTC")),
         (
-            "Peak memory",
-            format!("{} MiB", number(quantile(memory.collect(), 1.0))),
+            "Run",
+            format!("{} to {} UTC", first.unwrap_or_default(), last.unwrap_or_default()),
         ),
     ];
+    let times = results.rows.iter().filter_map(|row| measured(row)?.times.as_ref());
+    let peaks = times.map(|times| times.peak_rss_bytes as f64 / f64::from(1 << 20));
+    if let Some(peak) = quantile(peaks.collect(), 1.0) {
+        lines.push(("Peak memory of cells that ran alone", format!("{} MiB", number(peak))));
+    }
     let text: String = lines
         .iter()
         .map(|(what, value)| format!("* {what}: {}\n", plain(value)))
@@ -227,7 +223,7 @@ fn unmeasured(rows: &[Row]) -> String {
         text += &table(&["cell", "ended", "reason"], &lines[..lines.len().min(MOST_LINES)]);
     }
     if lines.len() > MOST_LINES {
-        text += &format!("and {} more in `rows.jsonl`.\n", lines.len() - MOST_LINES);
+        text += &format!("and {} more in `meshes.csv`.\n", lines.len() - MOST_LINES);
     }
     text
 }

@@ -18,9 +18,11 @@ pub(super) struct Ranking {
 
 impl Ranking {
     fn of(contest: &Contest, tasks: &[usize], by: Measure) -> Self {
-        let medians = contest.all().into_iter();
-        let mut order: Vec<(usize, f64)> = medians
-            .filter_map(|method| Some((method, contest.median(method, tasks, by.value)?)))
+        let methods = contest.all();
+        let tasks = contest.having(&methods, tasks, by.value);
+        let mut order: Vec<(usize, f64)> = methods
+            .into_iter()
+            .filter_map(|method| Some((method, contest.median(method, &tasks, by.value)?)))
             .collect();
         order.sort_by(|a, b| by.gain(b.1, a.1).total_cmp(&0.0).then(a.0.cmp(&b.0)));
         Self { by, order }

@@ -73,18 +73,10 @@ impl<'a> Pairs<'a> {
         angles.reduce(f64::min)
     }
 
-    /// The median over pairs of the other's value over the paper's.
-    fn ratio(&self, value: impl Fn(&Report) -> Option<f64>) -> Option<f64> {
-        let ratio = |two: &[&Report; 2]| Some(value(two[1])? / value(two[0])?);
-        median(self.reports.iter().filter_map(ratio).collect())
-    }
-
+    /// The median over pairs of the other's triangles over the paper's.
     fn triangles(&self) -> Option<f64> {
-        self.ratio(TRIANGLES.value)
-    }
-
-    fn seconds(&self) -> Option<f64> {
-        self.ratio(|report| Some(report.seconds.total))
+        let ratio = |two: &[&Report; 2]| Some((TRIANGLES.value)(two[1])? / (TRIANGLES.value)(two[0])?);
+        median(self.reports.iter().filter_map(ratio).collect())
     }
 }
 
@@ -167,7 +159,7 @@ const PRIOR: &str = "The two rules are known for random samplings: S. A. Mitchel
     proof is in `src/meshers/biting/beyond/rule.rs`.\n\n";
 
 /// The last columns are those of [`numbers`], but for the two bounds.
-const HEAD: [&str; 14] = [
+const HEAD: [&str; 13] = [
     "order",
     "t",
     "c_b",
@@ -181,7 +173,6 @@ const HEAD: [&str; 14] = [
     "triangles/∫dA/lfs², paper",
     "later",
     "triangles, later over paper",
-    "seconds, later over paper",
 ];
 
 fn line(pairs: &Pairs, way: &Way, order: &str, t: f64, c_b: f64) -> Vec<String> {
@@ -211,7 +202,6 @@ fn numbers(pairs: &Pairs) -> Vec<String> {
         number(sizes[0]),
         number(sizes[1]),
         number(pairs.triangles()),
-        number(pairs.seconds()),
     ]
 }
 

@@ -20,9 +20,10 @@ fn side_by_side(Asking { contest, measures, .. }: &Asking, meshers: &[&str]) -> 
     }
     let common = contest.common(&chosen);
     let column = |by: &Measure| {
+        let tasks = contest.having(&chosen, &common, by.value);
         let medians: Vec<Option<f64>> = chosen
             .iter()
-            .map(|&method| contest.median(method, &common, by.value))
+            .map(|&method| contest.median(method, &tasks, by.value))
             .collect();
         let best = medians.iter().flatten().copied().reduce(
             |best, other| {

@@ -1,7 +1,7 @@
 //! Task by task: every method on each.
 
 use super::markdown::{number, table, value};
-use super::threads::range_of;
+use super::threads::{range_of, speed};
 use crate::suite::analysis::contest::Contest;
 use crate::suite::analysis::measures::{
     EDGES, MEAN_ANGLE, MIN_ANGLE, Measure, P05_ANGLE, SIZE_RATIO, SPEED, TRIANGLES, UNDER_20, UNDER_30,
@@ -11,8 +11,8 @@ use crate::suite::rows::record::{Outcome, Report, Row};
 use crate::suite::run::plan::Section;
 
 /// The columns that are numbers of a mesh.
-const MEASURES: [Measure; 11] = [
-    TRIANGLES, SIZE_RATIO, EDGES[0], EDGES[1], EDGES[2], MIN_ANGLE, MEAN_ANGLE, P05_ANGLE, UNDER_20, UNDER_30, SPEED,
+const MEASURES: [Measure; 10] = [
+    TRIANGLES, SIZE_RATIO, EDGES[0], EDGES[1], EDGES[2], MIN_ANGLE, MEAN_ANGLE, P05_ANGLE, UNDER_20, UNDER_30,
 ];
 
 /// A table for each task.
@@ -31,7 +31,7 @@ fn task_table(contest: &Contest, task: usize, title: &str) -> String {
     let asked = &contest.tasks[task];
     let wanted = asked.triangles.map_or_else(String::new, |count| format!(" of {count}"));
     let samples = contest.all().into_iter().filter_map(|method| contest.row(method, task));
-    let once = match samples.map(|row| row.samples.len()).max() {
+    let once = match samples.map(|row| row.repeats()).max() {
         Some(1) => ", once",
         _ => "",
     };
@@ -40,7 +40,8 @@ fn task_table(contest: &Contest, task: usize, title: &str) -> String {
     let labels = MEASURES.map(|measure| measure.label());
     let mut head = vec!["mesher"];
     head.extend(labels.iter().map(String::as_str));
-    head.extend(["range of repeats", "peak MB (before)", ""]);
+    let speed = SPEED.label();
+    head.extend([speed.as_str(), "spread of repeats", "peak MB (before)", ""]);
     let (domain, spacing) = (&asked.domain, &asked.spacing);
     format!("### {domain}, `{spacing}`, at {title}{wanted}{once}\n\n") + &table(&head, &lines)
 }
@@ -50,7 +51,8 @@ fn task_line(row: &Row, label: &str) -> Vec<String> {
     let report = row.report.as_ref();
     let mut line = vec![label.to_owned()];
     line.extend(MEASURES.iter().map(|by| value(by, report.and_then(by.value))));
-    line.push(range_of(&row.samples));
+    line.push(report.map_or_else(|| "–".into(), speed));
+    line.push(report.map_or_else(|| "–".into(), range_of));
     line.push(report.map_or_else(|| "–".into(), memory));
     line.push(match row.outcome {
         Outcome::Measured => String::new(),
@@ -73,6 +75,15 @@ fn ended(how: &str, row: &Row) -> String {
 
 /// Peak memory, and that before meshing.
 fn memory(report: &Report) -> String {
-    let [peak, before] = [report.peak_rss_bytes, report.rss_before_bytes].map(|bytes| number(bytes as f64 / 1e6));
-    format!("{peak} ({before})")
+    let megabytes = |bytes: u64| number(bytes as f64 / 1e6);
+    report.times.as_ref().map_or_else(
+        || "–".to_owned(),
+        |times| {
+            format!(
+                "{} ({})",
+                megabytes(times.peak_rss_bytes),
+                megabytes(times.rss_before_bytes)
+            )
+        },
+    )
 }

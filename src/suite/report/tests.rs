@@ -8,16 +8,16 @@ mod rules;
 use super::angle::margins;
 use super::certificate::{self, broken_checks, claim_tallies};
 use super::fewest::fewest;
-use super::fixture::{leave, measured, results, row, sweep};
+use super::fixture::{leave, measured, results, row, sweep, timed};
 use super::orders::best_on;
 use super::time::slopes;
 use super::{ReportError, orders, page, write};
 use crate::meshers::{Budget, Request};
 use crate::suite::analysis::measures::{MEAN_ANGLE, MIN_ANGLE};
-use crate::suite::analysis::results::PLAN;
 use crate::suite::analysis::series::order_groups;
 use crate::suite::analysis::summary::{Grid, Setting, unbeaten_pairs};
-use crate::suite::rows::record::{Outcome, Provenance, ROWS, Row};
+use crate::suite::rows::record::{Outcome, Provenance, Row};
+use crate::suite::rows::tables::RUN;
 use crate::suite::run::plan::Section;
 use crate::suite::run::prepare::Store;
 use crate::suite::run::{measure, runner};
@@ -129,11 +129,10 @@ fn slopes_of_a_power_law() {
     let mut rows: Vec<Row> = Vec::new();
     for power in 10..14 {
         let cell = row("time", "unit-square", "uniform:1", 0.25, 1.0 / f64::from(power), "fifo");
-        let mut timed = measured(cell, 90.0, 1 << power, 1.0);
-        if let Some(report) = &mut timed.report {
-            report.seconds.total = (f64::from(power) * 1.25).exp2();
-        }
-        rows.push(timed);
+        rows.push(timed(
+            measured(cell, 90.0, 1 << power, 1.0),
+            (f64::from(power) * 1.25).exp2(),
+        ));
     }
     let slopes = slopes(&results(&rows));
     assert_eq!(slopes[0].name, "whole mesh");
@@ -240,7 +239,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     for part in [folder.to_path_buf(), folder.join("charts")] {
         for entry in std::fs::read_dir(part).unwrap().map(|entry| entry.unwrap().path()) {
             let name = entry.file_name().unwrap().to_string_lossy().into_owned();
-            if entry.is_file() && ![ROWS, PLAN].contains(&name.as_str()) {
+            if entry.is_file() && !name.ends_with(".csv") && name != RUN {
                 found.insert(name, std::fs::read(&entry).unwrap());
             }
         }

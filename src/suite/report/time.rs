@@ -6,7 +6,7 @@ use crate::suite::analysis::results::Results;
 use crate::suite::analysis::series::{TimeSeries, time_series};
 use crate::suite::analysis::summary::measured;
 use crate::suite::charts::{self, ChartError};
-use crate::suite::rows::numbers::{median, quantile, spread};
+use crate::suite::rows::numbers::{median, quantile};
 use crate::suite::rows::record::Report;
 use crate::suite::run::plan::Section;
 
@@ -61,10 +61,8 @@ pub(super) fn text(results: &Results) -> String {
         return String::new();
     }
     let timed: Vec<&Report> = results.ours(Section::Time).into_iter().filter_map(measured).collect();
-    let spreads = results.ours(Section::Time).into_iter().filter_map(|row| {
-        let spread = spread(row.samples.clone())?;
-        Some((spread.most - spread.least) / spread.median)
-    });
+    let quiet = timed.iter().filter(|report| report.believable().is_some()).count();
+    let spreads = timed.iter().filter_map(|report| report.times.as_ref()?.spread());
     let lines = slopes.iter().map(|step| {
         vec![
             step.name.replace('_', " "),
@@ -73,8 +71,8 @@ pub(super) fn text(results: &Results) -> String {
         ]
     });
     format!(
-        "Cells run alone and repeated: {}. Each time is the median of its repeats, whose range is {} of it in the \
-         median cell. Slopes are least-squares lines through the logarithms.\n\n",
+        "Cells run alone and repeated: {}, of which the {quiet} are shown whose repeats spread by less than 0.1 of their median (in the \
+         median cell by {}). Slopes are least-squares lines through the logarithms.\n\n",
         timed.len(),
         number(median(spreads.collect()))
     ) + &table(&["step", "slope", "µs per triangle"], &lines.collect::<Vec<_>>())

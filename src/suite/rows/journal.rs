@@ -1,4 +1,5 @@
-//! The file of rows: appended line by line so that a kill at any moment loses at most the running cell.
+//! The journal of a run in progress: appended line by line so that a kill at any moment loses at most the running cell. It goes
+//! when the run is finished and its tables are written ([`super::tables`]).
 //!
 //! A line is written at once, with its line feed, and forced to disk. A last line without line feed is what a kill
 //! left, and is cut off. A later line with the key of an earlier one replaces it: so do repeats of a timed cell. When
@@ -171,7 +172,7 @@ impl<R: Record> Journal<R> {
         Ok(())
     }
 
-    /// Moves the rows so far to `rows.before-STAMP.jsonl` beside the file and starts with none. Returns where they
+    /// Moves the rows so far to `journal.before-STAMP.jsonl` beside the file and starts with none. Returns where they
     /// went, if there were any.
     ///
     /// # Errors
@@ -190,6 +191,14 @@ impl<R: Record> Journal<R> {
         self.lines.clear();
         self.index.clear();
         Ok(Some(backup))
+    }
+
+    /// Removes the file, whose rows are kept elsewhere now.
+    ///
+    /// # Errors
+    /// [`JournalError::Io`].
+    pub fn remove(self) -> Result<(), JournalError> {
+        std::fs::remove_file(&self.path).map_err(io_error(&self.path))
     }
 
     /// Rewrites the file with the rows of `keys`, in that order; rows of other keys, such as cells the plan no longer
@@ -222,6 +231,9 @@ impl<R: Record> Journal<R> {
         Ok(())
     }
 }
+
+/// The journal in an experiment's folder.
+pub const JOURNAL: &str = "journal.jsonl";
 
 /// The rows of a file that may be in use or cut off at its end: the last one of each key.
 ///

@@ -1,4 +1,4 @@
-//! What an experiment leaves: records, the journal of a run in progress, and what made them.
+//! What an experiment leaves: records, the journal of a run in progress, the tables of a finished one, and what made them.
 
 pub mod adapted;
 pub mod hash;
@@ -6,3 +6,5 @@ pub mod journal;
 pub mod machine;
 pub mod numbers;
 pub mod record;
+pub mod tables;
+pub mod times;

@@ -1,23 +1,13 @@
 //! A [`Report`] says all about one mesh; a [`Row`] is one line of an experiment, failures included.
 
-use crate::meshers::parameter_value;
+use crate::meshers::{Parameters, parameter_value};
 use crate::quality::{Certificate, Statistics};
 use crate::suite::fem::Solution;
+use crate::suite::peers::AnyEntry;
 use crate::suite::rows::adapted::{Adapt, Round};
+use crate::suite::rows::times::Times;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// The file of rows in an experiment's folder.
-pub const ROWS: &str = "rows.jsonl";
-
-/// Seconds, in all and by the paper's step names, in the order they ran.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Seconds {
-    /// From domain and spacing in memory to mesh in memory.
-    pub total: f64,
-    /// By step.
-    pub steps: serde_json::Map<String, serde_json::Value>,
-}
 
 /// What made a row: enough to make it again.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -88,14 +78,10 @@ pub struct Report {
     /// Counts and angles.
     #[serde(flatten)]
     pub statistics: Statistics,
-    /// Time.
-    pub seconds: Seconds,
-    /// Resident memory of the process just before meshing, bytes; 0 where the system does not tell, and in older rows.
-    #[serde(default)]
-    pub rss_before_bytes: u64,
-    /// Peak resident memory of the process, bytes; 0 where the system does not tell.
-    pub peak_rss_bytes: u64,
-    /// Of a mesher outside this crate: what it told of its run. `seconds` and the two of memory are its own then.
+    /// Time and memory, of a mesh that was made alone.
+    #[serde(flatten)]
+    pub times: Option<Times>,
+    /// Of a mesher outside this crate: what it told of its run. `times` are its own then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outside: Option<Outside>,
     /// What came of the Poisson problem that the cell asks for.
@@ -111,8 +97,9 @@ pub struct Report {
     pub counts: BTreeMap<String, f64>,
     /// The certificate.
     pub certificate: Certificate,
-    /// What made it.
-    pub provenance: Provenance,
+    /// What made it; of a report from tables, their run file says that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub provenance: Option<Provenance>,
 }
 
 /// What a mesher outside this crate told of its run.
@@ -120,7 +107,8 @@ pub struct Report {
 pub struct Outside {
     /// Of the program or library that made the mesh.
     pub version: String,
-    /// Seconds before meshing, by name: imports, reading, setting up the size function.
+    /// Seconds before meshing, by name: imports, reading, setting up the size function. Of a cell that ran alone.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub set_up_seconds: BTreeMap<String, f64>,
     /// Whether a repeat made another mesh: such a mesher does not answer equal input by equal output.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -141,7 +129,7 @@ pub enum Outcome {
     Failed,
 }
 
-/// One line of `rows.jsonl`: one cell of an experiment.
+/// One cell of an experiment: a line of the journal, and of `meshes.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Identifies the cell: a resumed run skips cells whose key has a row.
@@ -156,14 +144,10 @@ pub struct Row {
     pub estimated_triangles: f64,
     /// Domain, mesher, parameters, spacing, t, c_b as asked for, also where there is no report.
     pub cell: Cell,
-    /// Seconds of each repeat of a timed cell; the report's total is their median.
-    pub samples: Vec<f64>,
     /// Where a number of triangles was asked for: every c_b tried, in order. The report is of the one that came nearest, and
     /// says its c_b, its t (the spacing being what it was) and its triangles, also where that is not near.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tries: Vec<Try>,
-    /// The key of the cell whose mesh this row reports too: limiting changes nothing in either and all else is equal.
-    pub same_as: Option<String>,
     /// All about the mesh.
     pub report: Option<Report>,
 }
@@ -237,6 +221,14 @@ fn is_one(threads: &usize) -> bool {
     *threads == 1
 }
 
+impl Row {
+    /// How often its cell ran alone.
+    pub fn repeats(&self) -> usize {
+        let times = self.report.as_ref().and_then(|report| report.times.as_ref());
+        times.map_or(0, |times| times.samples.len())
+    }
+}
+
 impl Cell {
     /// A mesher with its defaults on a domain: f capped by lfs, seed 0, one thread, not timed.
     pub fn new(domain: &str, mesher: &str, spacing: &str, t: f64, c_b: f64) -> Self {
@@ -255,6 +247,11 @@ impl Cell {
             adapt: None,
             timed: false,
         }
+    }
+
+    /// All parameters of its mesher: those it names, and the defaults of the rest.
+    pub fn complete(&self) -> Parameters {
+        AnyEntry::find(&self.mesher).map_or_else(|| self.params.clone(), |entry| entry.complete(&self.params))
     }
 
     /// The same with these parameters, written as on the command line.

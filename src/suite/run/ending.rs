@@ -2,7 +2,7 @@
 
 use crate::suite::rows::numbers::median;
 use crate::suite::rows::record::{Outcome, Report, Row, Try};
-use crate::suite::run::measure::Run;
+use crate::suite::rows::times::Times;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// How a unit ended.
@@ -10,7 +10,6 @@ pub(super) struct Ending {
     pub(super) outcome: Outcome,
     pub(super) reason: Option<String>,
     pub(super) estimated_triangles: f64,
-    pub(super) samples: Vec<f64>,
     pub(super) tries: Vec<Try>,
     pub(super) report: Option<Report>,
 }
@@ -21,7 +20,6 @@ impl Ending {
             outcome,
             reason: Some(reason),
             estimated_triangles,
-            samples: Vec::new(),
             tries: Vec::new(),
             report: None,
         }
@@ -45,30 +43,35 @@ pub(super) fn unwritable(row: Row, error: &str) -> Row {
         } else {
             f64::MAX
         },
-        samples: Vec::new(),
         report: None,
         ..row
     }
 }
 
-/// What a row can do without: where a check that nobody guarantees was broken, besides the worst place. The mesh can be
-/// made again from its row, and has them all.
-pub(super) fn slim(report: &mut Report) {
+/// What a row can do without: where a check that nobody guarantees was broken, besides the worst place, for the mesh can be
+/// made again from its row and has them all; and how long a mesh took that was made beside others.
+pub(super) fn slim(report: &mut Report, is_timed: bool) {
     let checks = report.certificate.checks.iter_mut();
     checks
         .filter(|check| !check.applies)
         .for_each(|check| check.witnesses.clear());
+    if !is_timed {
+        report.times = None;
+        report.outside.iter_mut().for_each(|told| told.set_up_seconds.clear());
+    }
 }
 
-/// The report's times become those of the run nearest to the median of `samples`, its total the median itself.
-pub(super) fn take_median(report: &mut Report, run: Run, samples: &[f64]) {
-    let Some(median) = median(samples.to_vec()) else {
+/// The times become those of the run nearest to the median of all repeats, the last of which is `run`; their total is the median
+/// itself.
+pub(super) fn add_repeat(times: &mut Times, run: Times) {
+    times.samples.push(run.seconds.total);
+    let Some(median) = median(times.samples.clone()) else {
         return;
     };
-    if (run.seconds.total - median).abs() < (report.seconds.total - median).abs() {
-        report.seconds.steps = run.seconds.steps;
+    if (run.seconds.total - median).abs() < (times.seconds.total - median).abs() {
+        times.seconds.steps = run.seconds.steps;
     }
-    report.seconds.total = median;
+    times.seconds.total = median;
 }
 
 /// A panic in one cell is that cell's failure, and no reason to lose the others.

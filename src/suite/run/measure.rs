@@ -3,9 +3,10 @@
 use crate::mesh::Mesh;
 use crate::meshers::{Mesher, Request, Trace, resident_bytes};
 use crate::suite::fem::{self, Problem, Solution};
-use crate::suite::peers::{AnyEntry, AnyMesher, PeerRun, RunError};
+use crate::suite::peers::{AnyMesher, PeerRun, RunError};
 use crate::suite::rows::machine;
-use crate::suite::rows::record::{Cell, Outside, Provenance, Report, Seconds};
+use crate::suite::rows::record::{Cell, Outside, Provenance, Report};
+use crate::suite::rows::times::{Seconds, Times};
 use crate::suite::run::prepare::{Prepared, Site};
 use crate::theory::Promises;
 use serde_json::{Map, Value};
@@ -17,14 +18,10 @@ use std::time::Instant;
 pub struct Run {
     /// The mesh.
     pub mesh: Mesh,
-    /// Seconds, in all and by step.
-    pub seconds: Seconds,
+    /// Seconds, in all and by step, and memory.
+    pub times: Times,
     /// Counts the mesher reports of itself.
     pub counts: BTreeMap<String, f64>,
-    /// Memory of the process just before, bytes.
-    pub rss_before_bytes: u64,
-    /// Peak memory of the process by the end, bytes.
-    pub peak_rss_bytes: u64,
     /// What a peer reports of its run besides.
     pub outside: Option<Outside>,
 }
@@ -63,10 +60,13 @@ fn ours(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Result<R
     let counts = trace.counts.into_iter();
     Ok(Run {
         mesh,
-        seconds: Seconds { total, steps },
+        times: Times {
+            seconds: Seconds { total, steps },
+            samples: Vec::new(),
+            rss_before_bytes,
+            peak_rss_bytes: machine::peak_rss_bytes(),
+        },
         counts: counts.map(|(name, value)| (name.to_owned(), value)).collect(),
-        rss_before_bytes,
-        peak_rss_bytes: machine::peak_rss_bytes(),
         outside: None,
     })
 }
@@ -74,15 +74,26 @@ fn ours(prepared: &Prepared, mesher: &dyn Mesher, request: &Request) -> Result<R
 impl Run {
     /// Time and memory are what the peer reports: what we would measure has its process in it.
     fn of_peer(run: PeerRun) -> Self {
+        let (mut counts, mut steps) = (BTreeMap::new(), Map::new());
+        for (name, value) in run.counts {
+            // What a peer counts is the same on each run, but where it counts seconds.
+            match name.strip_prefix("seconds_") {
+                Some(step) => drop(steps.insert(step.to_owned(), Value::from(value))),
+                None => drop(counts.insert(name, value)),
+            }
+        }
         Self {
             mesh: run.mesh,
-            seconds: Seconds {
-                total: run.seconds,
-                steps: Map::new(),
+            times: Times {
+                seconds: Seconds {
+                    total: run.seconds,
+                    steps,
+                },
+                samples: Vec::new(),
+                rss_before_bytes: run.rss_before_bytes,
+                peak_rss_bytes: run.peak_rss_bytes,
             },
-            counts: run.counts,
-            rss_before_bytes: run.rss_before_bytes,
-            peak_rss_bytes: run.peak_rss_bytes,
+            counts,
             outside: Some(Outside {
                 version: run.version,
                 set_up_seconds: run.set_up,
@@ -105,7 +116,7 @@ pub fn judge(prepared: &Prepared, cell: &Cell, mesher: &AnyMesher, run: &Run, pr
     Report {
         domain: site.domain.name().into(),
         mesher: cell.mesher.clone(),
-        params: complete(cell),
+        params: cell.complete(),
         spacing: prepared.spacing.spec.clone(),
         t: cell.t,
         t_effective,
@@ -129,16 +140,14 @@ pub fn judge(prepared: &Prepared, cell: &Cell, mesher: &AnyMesher, run: &Run, pr
         .min_angle_deg(),
         fingerprint: fingerprint(&run.mesh),
         statistics,
-        seconds: run.seconds.clone(),
-        rss_before_bytes: run.rss_before_bytes,
-        peak_rss_bytes: run.peak_rss_bytes,
+        times: Some(run.times.clone()),
         outside: run.outside.clone(),
         poisson,
         poisson_failed,
         rounds: prepared.rounds.to_vec(),
         counts: run.counts.clone(),
         certificate,
-        provenance: provenance.clone(),
+        provenance: Some(provenance.clone()),
     }
 }
 
@@ -153,11 +162,6 @@ fn poisson(cell: &Cell, site: &Site, run: &Run) -> (Option<Solution>, Option<Str
         Ok(solution) => (Some(solution), None),
         Err(error) => (None, Some(error.to_string())),
     }
-}
-
-/// All parameters of a cell's mesher: those it names, and the defaults of the rest.
-pub fn complete(cell: &Cell) -> Map<String, Value> {
-    AnyEntry::find(&cell.mesher).map_or_else(|| cell.params.clone(), |entry| entry.complete(&cell.params))
 }
 
 /// A hash of the mesh's points and triangles, bit by bit, in hexadecimal: FNV-1a of 64 bits over their words. Equal
@@ -200,11 +204,11 @@ mod tests {
     fn defaults_complete_what_a_cell_names() {
         for entry in meshers::MESHERS {
             let mut cell = Cell::new("unit-square", entry.name, "lfs", 0.25, 0.5);
-            let defaults = complete(&cell);
+            let defaults = cell.complete();
             assert_eq!(defaults.len(), entry.parameters.len(), "{}", entry.name);
             assert!((entry.make)(&defaults).is_ok(), "{}: its defaults make it", entry.name);
             cell.params = defaults.clone();
-            assert_eq!(complete(&cell), defaults);
+            assert_eq!(cell.complete(), defaults);
         }
     }
 }

@@ -215,15 +215,22 @@ impl Plan {
     /// # Errors
     /// [`PlanError`] names the file and line, and what to change.
     pub fn read(file: &Path) -> Result<Self, PlanError> {
+        let text = std::fs::read_to_string(file).map_err(|cause| PlanError {
+            file: file.to_owned(),
+            problem: format!("{cause}; run in a checkout, where `biting list` shows the experiments, or name a file"),
+        })?;
+        Self::parse(text, file)
+    }
+
+    /// Checks the plan that `text` is, which stands in `file`.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the file and line, and what to change.
+    pub fn parse(text: String, file: &Path) -> Result<Self, PlanError> {
         let error = |problem: String| PlanError {
             file: file.to_owned(),
             problem,
         };
-        let text = std::fs::read_to_string(file).map_err(|cause| {
-            error(format!(
-                "{cause}; run in a checkout, where `biting list` shows the experiments, or name a file"
-            ))
-        })?;
         let name = file
             .file_stem()
             .map_or_else(|| "experiment".into(), |stem| stem.to_string_lossy().into_owned());

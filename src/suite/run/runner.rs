@@ -10,7 +10,7 @@ use crate::suite::peers::{AnyEntry, AnyMesher, PeerError, RunError};
 use crate::suite::rows::journal::{Journal, JournalError, Line};
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{Cell, Outcome, Provenance, Report, Row};
-use crate::suite::run::ending::{Ending, guarded, slim, take_median, unwritable};
+use crate::suite::run::ending::{Ending, add_repeat, guarded, slim, unwritable};
 use crate::suite::run::gate::Gate;
 use crate::suite::run::measure::{self, Run};
 use crate::suite::run::plan::PlannedCell;
@@ -62,14 +62,19 @@ pub fn weight(unit: &Unit, cells: &[PlannedCell]) -> f64 {
     }
 }
 
-/// Whether the journal has a final row for that cell: skipped ones are tried again where the budget would let them, timed
-/// ones where repeats are missing.
+/// Whether the journal has a final row for that cell.
 pub fn is_done(planned: &PlannedCell, journal: &Journal) -> bool {
-    journal.get(&planned.key).is_some_and(|row| match row.outcome {
+    journal.get(&planned.key).is_some_and(|row| is_final(planned, row))
+}
+
+/// Whether nothing more comes of a cell: skipped ones are tried again where the budget would let them, since a peer or memory was
+/// missing; timed ones where repeats are.
+pub fn is_final(planned: &PlannedCell, row: &Row) -> bool {
+    match row.outcome {
         Outcome::Skipped => row.estimated_triangles > planned.budget.triangles,
-        Outcome::Measured => !planned.cell.timed || row.samples.len() >= planned.repeats,
+        Outcome::Measured => !planned.cell.timed || row.repeats() >= planned.repeats,
         Outcome::Declined | Outcome::Failed => true,
-    })
+    }
 }
 
 /// A unit's budget: cells of one mesh may stand in groups with different ones, and the largest counts.
@@ -147,7 +152,7 @@ impl Sweep<'_> {
                         .filter(|row| row.outcome == Outcome::Measured)
                         .cloned();
                     let ending = match before {
-                        Some(row) if row.samples.len() > round => continue,
+                        Some(row) if row.repeats() > round => continue,
                         Some(row) => self.repeat(unit, prepared.as_ref(), row),
                         // What did not come out in the first round is not tried again.
                         None if round > 0 => continue,
@@ -196,11 +201,14 @@ impl Sweep<'_> {
                 ..self.provenance.clone()
             };
             let mut report = measure::judge(prepared, &asked, &mesher, &run, &provenance);
-            slim(&mut report);
-            Ok((report, run.seconds.total, tuned.tries))
+            if let Some(times) = &mut report.times {
+                times.samples.push(times.seconds.total);
+            }
+            slim(&mut report, planned.cell.timed);
+            Ok((report, tuned.tries))
         });
         match attempt {
-            Ok(Ok((report, seconds, tries))) => Ending {
+            Ok(Ok((report, tries))) => Ending {
                 outcome: if report.outside.is_some() && !report.certificate.holds {
                     Outcome::Failed
                 } else {
@@ -208,7 +216,6 @@ impl Sweep<'_> {
                 },
                 reason: not_conforming(&report),
                 estimated_triangles: estimated,
-                samples: if planned.cell.timed { vec![seconds] } else { Vec::new() },
                 tries,
                 report: Some(report),
             },
@@ -276,14 +283,13 @@ impl Sweep<'_> {
             );
             return Ending::without_report(Outcome::Failed, reason, estimated);
         }
-        let mut samples = row.samples;
-        samples.push(run.seconds.total);
-        take_median(&mut report, run, &samples);
+        if let Some(times) = &mut report.times {
+            add_repeat(times, run.times);
+        }
         Ending {
             outcome: Outcome::Measured,
             reason: None,
             estimated_triangles: estimated,
-            samples,
             tries: row.tries,
             report: Some(report),
         }
@@ -316,7 +322,6 @@ impl Sweep<'_> {
 
     /// Appends the rows of a unit's cells.
     fn write(&self, unit: &Unit, ending: &Ending, journal: &mut Journal, weight: f64) -> Result<(), JournalError> {
-        let first = &self.cells[unit.cells[0]];
         for (place, &cell) in unit.cells.iter().enumerate() {
             let planned = &self.cells[cell];
             let mut report = ending.report.clone();
@@ -332,9 +337,7 @@ impl Sweep<'_> {
                 reason: ending.reason.clone(),
                 estimated_triangles: ending.estimated_triangles,
                 cell: planned.cell.clone(),
-                samples: ending.samples.clone(),
                 tries: ending.tries.clone(),
-                same_as: (place > 0).then(|| first.key.clone()),
                 report,
             };
             let line = Line::new(row.clone()).or_else(|error| Line::new(unwritable(row, &error.to_string())));

@@ -1,7 +1,7 @@
 //! Comparisons against numbers worked out by hand.
 
 use super::super::duels::duel;
-use super::super::fixture::{asked, done, leave, results};
+use super::super::fixture::{asked, done, leave, results, timed};
 use super::super::ranks::{self, rankings};
 use super::super::standings::standings;
 use super::super::{duels, write};
@@ -219,11 +219,8 @@ fn everything() -> Vec<Row> {
     }
     for (mesher, power) in [("biting", 1.0), ("rival", 1.5)] {
         for size in [10_000usize, 40_000, 160_000] {
-            let mut cell = done("time", &format!("square-{size}"), mesher, none(), size, 9.0);
-            if let Some(report) = &mut cell.report {
-                report.seconds.total = 1e-6 * (size as f64).powf(power);
-            }
-            rows.push(cell);
+            let cell = done("time", &format!("square-{size}"), mesher, none(), size, 9.0);
+            rows.push(timed(cell, 1e-6 * (size as f64).powf(power)));
         }
     }
     rows
