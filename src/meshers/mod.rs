@@ -174,8 +174,8 @@ pub enum MeshError {
     },
     /// The spacing is steeper between two points than its Lipschitz constant allows.
     #[error(
-        "spacing is {} at ({:?}, {:?}) and {} at ({:?}, {:?}): a change of more than {alpha} times their distance, which is what \
-         lipschitz() promises; limit it, or promise less",
+        "spacing is {} at ({:?}, {:?}) and {} at ({:?}, {:?}): a change of more than {alpha} times their distance, the \
+         constant that lipschitz() returns; limit the spacing, or return a larger constant",
         values[0], points[0].x, points[0].y, values[1], points[1].x, points[1].y
     )]
     NotLipschitz {

@@ -33,8 +33,8 @@
 //! at least asin((1 − t) / 2). For domains without a boundary this is known. [`beyond::rule`] has the theorem with a
 //! boundary, its proof, and the other bounds; the certificate then checks these in place of the paper's.
 //!
-//! With `lfs:geodesic` circles bite only what they reach inside the domain, and the same bounds hold:
-//! [`beyond::inside`] has the proof.
+//! With `lfs:geodesic` circles bite only what they reach inside the domain. For t ≤ √2 − 1 and the paper's rule the
+//! same bounds hold: [`beyond::inside`] has the proof and its hypotheses.
 //!
 //! # Cost
 //! A bite takes O(1), with one evaluation of f and a point-in-domain query for each front vertex next to the boundary.
