@@ -154,6 +154,41 @@ fn the_readme_has_five_short_findings() {
     }
 }
 
+/// Seconds from `date` to `until` of the runs that made some results, by their provenance.
+fn seconds_of(run: &str) -> u32 {
+    let times = |name: &str| -> Vec<u32> {
+        let values = run
+            .lines()
+            .filter_map(|line| line.strip_prefix(name)?.strip_prefix(" = \""));
+        let clock = |value: &str| {
+            let part = |from: usize| value[from..from + 2].parse::<u32>().expect("two digits");
+            86_400 * part(8) + 3600 * part(11) + 60 * part(14) + part(17)
+        };
+        values.map(clock).collect()
+    };
+    let (starts, ends) = (times("date"), times("until"));
+    assert!(!starts.is_empty() && starts.len() == ends.len());
+    ends.iter().sum::<u32>() - starts.iter().sum::<u32>()
+}
+
+#[test]
+fn the_readme_has_the_minutes_of_the_runs() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("README.md");
+    let mut checked = 0;
+    for row in readme.lines().filter(|line| line.starts_with("| ")) {
+        let cells: Vec<&str> = row.split(" | ").collect();
+        let page = cells.last().and_then(|cell| cell.split("](results/").nth(1));
+        let folder = page.and_then(|page| page.split('/').next()).unwrap_or_default();
+        if let Ok(run) = fs::read_to_string(root().join("results").join(folder).join("run.toml"))
+            && cells.len() == 4
+        {
+            assert_eq!(cells[2], seconds_of(&run).div_ceil(60).to_string(), "{row}");
+            checked += 1;
+        }
+    }
+    assert!(checked >= 8, "{checked}");
+}
+
 #[test]
 fn the_architecture_names_what_is_there() {
     let page = fs::read_to_string(root().join("ARCHITECTURE.md")).expect("a page");
