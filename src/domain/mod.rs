@@ -62,6 +62,19 @@ impl Face {
 }
 
 /// The domain to mesh: a valid PSLG. Vertices and segments that no inside face touches have been left out.
+///
+/// ```
+/// use biting::domain::{Domain, load};
+/// use biting::geometry::DVec2;
+///
+/// let triangle = Domain::polygon(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])?;
+/// assert!(triangle.contains(DVec2::new(0.2, 0.2)) && !triangle.contains(DVec2::new(0.8, 0.8)));
+/// // A gallery name or a file, .poly or .geojson.
+/// assert_eq!(load("l-shape")?.vertices().len(), 6);
+/// // Two sides that cross are no polygon: the message says where.
+/// assert!(Domain::polygon(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]).is_err());
+/// # Ok::<(), biting::domain::DomainError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Domain {
     name: String,

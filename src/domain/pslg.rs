@@ -62,6 +62,18 @@ pub struct Source {
 }
 
 /// A planar straight-line graph as given. [`super::Domain::new`] checks it, [`super::repair`] mends it.
+///
+/// ```
+/// use biting::domain::{Domain, Pslg};
+/// use biting::geometry::DVec2;
+///
+/// let mut plate = Pslg::new("plate with a slot");
+/// plate.add_ring([(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)].map(DVec2::from), 1);
+/// plate.add_ring([(1.0, 0.9), (2.0, 0.9), (2.0, 1.1), (1.0, 1.1)].map(DVec2::from), 2);
+/// plate.add_hole(DVec2::new(1.5, 1.0));
+/// assert!((Domain::new(plate)?.area() - 5.8).abs() < 1e-12);
+/// # Ok::<(), biting::domain::DomainError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pslg {
     /// Gallery name or file stem.

@@ -43,6 +43,21 @@ impl Piece {
 }
 
 /// A conforming triangle mesh. The domain's vertices come first, in order.
+///
+/// ```
+/// use biting::{Case, domain::Domain, meshers::biting::Biting};
+///
+/// let square = Domain::polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])?;
+/// let mesh = Case::new(square, "uniform:0.2", 0.25, 0.75)?.mesh(&Biting::default())?;
+/// assert_eq!(mesh.points[2].to_array(), [1.0, 1.0]);
+/// let area = |t: usize| {
+///     let [a, b, c] = mesh.corners(t);
+///     0.5 * (b - a).perp_dot(c - a)
+/// };
+/// let whole: f64 = (0..mesh.triangles.len()).map(area).sum();
+/// assert!((whole - 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Vertex positions.

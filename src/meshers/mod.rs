@@ -121,6 +121,17 @@ pub(crate) const NOT_GEODESIC: &str = "this method needs similar sizes on the tw
     lfs:geodesic does not ensure that; use lfs as spacing, or the mesher biting or delaunay-refinement";
 
 /// What a mesher takes besides domain and spacing.
+///
+/// ```
+/// use biting::{Case, domain::load, meshers::biting::Biting, meshers::{Budget, MeshError, Request, Trace}};
+///
+/// let case = Case::new(load("plate-hole")?, "lfs", 0.25, 0.75)?;
+/// let most = Budget { max_vertices: Some(100), ..Budget::default() };
+/// let request = Request { seed: 7, budget: most, ..case.request() };
+/// let stopped = case.mesh_as(&Biting::default(), &request, &mut Trace::default());
+/// assert!(matches!(stopped, Err(MeshError::Budget { .. })));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Request {
     /// Biting constant: the target edge length at x is c_b f(x).
@@ -228,7 +239,18 @@ impl Trace {
     }
 }
 
-/// A mesh generator: a struct of its paper's parameters.
+/// A mesh generator: a struct of its paper's parameters. `examples/own_mesher.rs` is one of one's own.
+///
+/// ```
+/// use biting::{Case, domain::load, meshers::{MESHERS, Parameters}};
+///
+/// let case = Case::new(load("l-shape")?, "lfs", 0.25, 0.75)?;
+/// for entry in MESHERS {
+///     let mesher = (entry.make)(&Parameters::new())?;
+///     assert!(case.judge_of(&case.mesh(&*mesher)?, &*mesher).1.holds, "{}", entry.name);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Mesher: Send + Sync {
     /// Checks that all parameters are in their ranges; the error names one that is not.
     fn check(&self) -> Result<(), String> {

@@ -226,6 +226,17 @@ pub struct Check {
 pub const WITNESSES: usize = 8;
 
 /// Every bound of the paper and every structural claim, checked on one mesh.
+///
+/// ```
+/// use biting::{Case, domain::Domain, meshers::biting::Biting, theory::Claim};
+///
+/// let square = Domain::polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])?;
+/// let case = Case::new(square, "lfs", 0.25, 0.75)?;
+/// let (_, certificate) = case.judge_of(&case.mesh(&Biting::default())?, &Biting::default());
+/// let angle = certificate.check(Claim::MinAngle).expect("judged with a spacing");
+/// assert!(angle.applies && angle.holds && angle.worst >= angle.bound);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
     /// Whether every check that applies holds.

@@ -50,6 +50,28 @@ pub use spec::{KINDS, Spec, spec_for_size};
 pub use uniform::Uniform;
 
 /// A control spacing function f.
+///
+/// ```
+/// use biting::{Case, domain::Domain, geometry::DVec2, meshers::biting::Biting, spacing::Spacing};
+///
+/// /// Small at the origin, growing by 0.2 per unit of length.
+/// struct Growing;
+///
+/// impl Spacing for Growing {
+///     fn at(&self, x: DVec2) -> f64 {
+///         0.05 + 0.2 * x.length()
+///     }
+///
+///     fn lipschitz(&self) -> f64 {
+///         0.2
+///     }
+/// }
+///
+/// let square = Domain::polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])?;
+/// let case = Case::from_spacing(square, Growing, 0.25, 0.75)?;
+/// assert!(case.judge(&case.mesh(&Biting::default())?).1.holds);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Spacing: Send + Sync {
     /// f(x): finite and positive on the domain, in the length unit of the domain.
     fn at(&self, x: DVec2) -> f64;

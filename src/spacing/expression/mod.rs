@@ -14,6 +14,18 @@ use crate::spacing::expression::program::Program;
 use crate::spacing::expression::proved::{Formula, Proved};
 
 /// f(x, y) by a formula.
+///
+/// ```
+/// use biting::geometry::{DVec2, Rect};
+/// use biting::spacing::{Expression, Spacing};
+///
+/// let unit_square = Rect { min: DVec2::ZERO, max: DVec2::ONE };
+/// let f = Expression::new("0.1 + 0.3*abs(x - 0.5)", unit_square)?;
+/// assert_eq!(f.at(DVec2::new(0.5, 0.2)), 0.1);
+/// // Proved on the box, never sampled.
+/// assert!((f.lipschitz() - 0.3).abs() < 1e-9);
+/// # Ok::<(), biting::spacing::GrammarError>(())
+/// ```
 pub type Expression = Proved<Program>;
 
 impl Formula for Program {
