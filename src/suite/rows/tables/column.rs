@@ -217,6 +217,11 @@ pub fn number(value: f64) -> String {
     exact(format!("{value:.8e}").parse().unwrap_or(value))
 }
 
+/// A number at 3 significant digits: rounding and errors, of which only the size matters.
+pub fn rough(value: f64) -> String {
+    exact(format!("{value:.2e}").parse().unwrap_or(value))
+}
+
 /// A number to the last bit: what was asked for, so that it can be asked for again.
 pub fn exact(value: f64) -> String {
     let text = format!("{value:?}");
@@ -247,6 +252,7 @@ mod tests {
             assert!(((text.parse::<f64>().unwrap() - value) / value.max(1e-300)).abs() < 5e-9);
         }
         assert_eq!(exact(1.0 / 3.0).parse::<f64>().unwrap(), 1.0 / 3.0);
+        assert_eq!(rough(2.0 / 3.0 * 1e-15), "6.67e-16");
     }
 
     fn pairs() -> Vec<Column<(u32, &'static str)>> {

@@ -1,10 +1,11 @@
-//! `meshes.csv`: what was asked for, what came out, and the worst value of each claim; a line a cell.
+//! `meshes.csv`: what was asked for ([`super::asked`]), what came out, and what became of each claim ([`super::claims`]); a line a cell.
 
-use super::column::{Column, exact, flag, number};
-use crate::quality::{Angles, Check, Percentiles};
+use super::asked::{asked, ended};
+use super::claims::claims;
+use super::column::{Column, exact, flag, number, rough};
+use crate::quality::{Angles, Percentiles};
 use crate::suite::fem::{Solution, Solver, Spectrum};
-use crate::suite::rows::record::{Outcome, Report, Row, Try, parameter_text};
-use crate::theory::Claim;
+use crate::suite::rows::record::{Report, Row};
 use std::collections::BTreeSet;
 
 /// What the meshers of some rows count: these name columns.
@@ -39,151 +40,18 @@ fn count(name: &str) -> Column<Row> {
 }
 
 /// A column that needs a mesh.
-fn of_mesh(name: &str, about: &str, value: impl Fn(&Report) -> Option<String> + 'static) -> Column<Row> {
+pub(super) fn of_mesh(name: &str, about: &str, value: impl Fn(&Report) -> Option<String> + 'static) -> Column<Row> {
     Column::new(name, about, move |row: &Row| value(row.report.as_ref()?))
 }
 
 /// A number of a mesh.
-fn measure(name: &str, about: &str, value: impl Fn(&Report) -> f64 + 'static) -> Column<Row> {
+pub(super) fn measure(name: &str, about: &str, value: impl Fn(&Report) -> f64 + 'static) -> Column<Row> {
     of_mesh(name, about, move |report| Some(number(value(report))))
 }
 
 /// A number that not all meshes have.
-fn maybe(name: &str, about: &str, value: impl Fn(&Report) -> Option<f64> + 'static) -> Column<Row> {
+pub(super) fn maybe(name: &str, about: &str, value: impl Fn(&Report) -> Option<f64> + 'static) -> Column<Row> {
     of_mesh(name, about, move |report| value(report).map(number))
-}
-
-/// What a cell asks for, to the last bit.
-fn asked() -> Vec<Column<Row>> {
-    let column = |name, about, value: fn(&Row) -> Option<String>| Column::new(name, about, value);
-    vec![
-        column("key", "identifies the cell in every table: all it asks for", |row| {
-            Some(row.key.clone())
-        }),
-        column("group", "the plan's group of cells", |row| Some(row.group.clone())),
-        column("domain", "gallery name or file", |row| Some(row.cell.domain.clone())),
-        column(
-            "spacing",
-            "f as asked for, before it is capped by lfs and limited",
-            |row| Some(row.cell.spacing.clone()),
-        )
-        .paper("§2"),
-        column("mesher", "its name, ours or a peer's", |row| {
-            Some(row.cell.mesher.clone())
-        }),
-        column(
-            "params",
-            "those of the mesher's parameters that differ from their defaults",
-            params,
-        ),
-        column("t", "α c_b as asked for, to the last bit", |row| {
-            Some(exact(row.cell.t))
-        })
-        .paper("§5"),
-        column("c_b", "biting constant as asked for, to the last bit", |row| {
-            Some(exact(row.cell.c_b))
-        })
-        .paper("§5"),
-        column("seed", "of random choices", |row| Some(row.cell.seed.to_string())).or("0"),
-        column("lfs_cap", "1 where f is capped by lfs, so that f ≤ lfs", |row| {
-            Some(flag(row.cell.lfs_cap))
-        })
-        .paper("§5")
-        .or("1"),
-        column(
-            "wanted_triangles",
-            "triangles the mesh shall have: c_b is scaled for it, f staying as it is",
-            |row| Some(row.cell.triangles?.to_string()),
-        ),
-        column("threads", "threads the mesher may use", |row| {
-            Some(row.cell.threads.to_string())
-        })
-        .or("1"),
-        column("problem", "Poisson problem that is solved on the mesh", |row| {
-            row.cell.poisson.clone()
-        }),
-        column(
-            "adapt_eps",
-            "error of linear interpolation that f is adapted to, in the unit of u",
-            |row| Some(exact(row.cell.adapt?.eps)),
-        )
-        .paper("§2.2"),
-        column("adapt_rounds", "most rounds of adaptation", |row| {
-            Some(row.cell.adapt?.rounds.to_string())
-        }),
-        column("adapt_sample", "1 where the Hessian is that of u itself", |row| {
-            Some(flag(row.cell.adapt?.sample))
-        })
-        .or("0"),
-        column(
-            "timed",
-            "1 where the cell runs alone and repeated: `times.csv` has its times",
-            |row| Some(flag(row.cell.timed)),
-        )
-        .or("0"),
-    ]
-}
-
-fn params(row: &Row) -> Option<String> {
-    let params = row.cell.params.iter();
-    let params: Vec<String> = params
-        .map(|(name, value)| format!("{name}={}", parameter_text(value)))
-        .collect();
-    (!params.is_empty()).then(|| params.join(","))
-}
-
-/// How the cell ended.
-fn ended() -> Vec<Column<Row>> {
-    vec![
-        Column::new("outcome", "measured, declined, failed or skipped", |row: &Row| {
-            Some(outcome_word(row.outcome).into())
-        }),
-        Column::new("reason", "why it is not measured", |row: &Row| row.reason.clone()),
-        Column::new(
-            "estimated_triangles",
-            "where there is no mesh: triangles expected, from ∫ dA / f²",
-            |row: &Row| row.report.is_none().then(|| number(row.estimated_triangles)),
-        ),
-        Column::new(
-            "tries",
-            "where triangles are wanted: each c_b tried, `c_b:triangles`, the last part empty where there was no mesh",
-            tries,
-        ),
-        of_mesh("peer_version", "version of a mesher outside this crate", |report| {
-            Some(report.outside.as_ref()?.version.clone())
-        }),
-        of_mesh("fingerprint", "hash of points and triangles, bit by bit", |report| {
-            Some(report.fingerprint.clone())
-        }),
-        measure(
-            "vertices",
-            "of the mesh; the worst value of `vertices-lower` too",
-            |report| report.statistics.vertices as f64,
-        ),
-        measure("triangles", "of the mesh", |report| report.statistics.triangles as f64),
-        of_mesh("holds", "1 where every check that applies holds", |report| {
-            Some(flag(report.certificate.holds))
-        }),
-    ]
-}
-
-/// The word of an outcome.
-pub(super) fn outcome_word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Measured => "measured",
-        Outcome::Skipped => "skipped",
-        Outcome::Declined => "declined",
-        Outcome::Failed => "failed",
-    }
-}
-
-fn tries(row: &Row) -> Option<String> {
-    let one = |tried: &Try| {
-        let triangles = tried.triangles.map(|count| count.to_string()).unwrap_or_default();
-        format!("{}:{triangles}", number(tried.c_b))
-    };
-    let all: Vec<String> = row.tries.iter().map(one).collect();
-    (!all.is_empty()).then(|| all.join(" "))
 }
 
 /// What the theorems assume of the mesh at hand.
@@ -239,18 +107,18 @@ fn sizes() -> Vec<Column<Row>> {
     };
     vec![
         measure("integral", "∫ dA / f² over the domain", |report| report.integral).paper("§5.3"),
-        measure("integral_error", "its estimated relative error", |report| {
-            report.integral_error
+        of_mesh("integral_error", "its estimated relative error, 3 digits", |report| {
+            Some(rough(report.integral_error))
         }),
         measure("integral_lfs", "∫ dA / lfs² over the domain", |report| {
             report.integral_lfs
         }),
-        measure("size_ratio", "triangles / integral", |report| report.size_ratio).paper("Theorem 5.11"),
         measure(
             "size_efficiency",
             "triangles · (√3/4) c_b² / integral: 1 for equilateral triangles of edge c_b f",
             |report| report.size_efficiency,
-        ),
+        )
+        .paper("Theorem 5.11"),
         edge(
             "edge_over_size_p05",
             "edge length / c_b f(midpoint), 5th percentile",
@@ -305,139 +173,6 @@ fn angles() -> Vec<Column<Row>> {
             report.statistics.p05_min_angle_deg
         }),
     ]
-}
-
-/// The claims whose worst value is a column of its own, with what it is and what it is where the column is left out. That of the
-/// others is another column: [`worst_elsewhere`].
-const WORST: [(Claim, &str, Option<&str>); 15] = [
-    (
-        Claim::PositiveOrientation,
-        "smallest signed area of a triangle, in the domain's unit squared",
-        None,
-    ),
-    (
-        Claim::Area,
-        "relative difference of the triangles' areas and the domain's",
-        None,
-    ),
-    (Claim::VerticesUsed, "mesh vertices in no triangle", Some("0")),
-    (
-        Claim::InputVertices,
-        "input vertices that are no mesh vertices",
-        Some("0"),
-    ),
-    (
-        Claim::InputSegments,
-        "input segments that are no chains of mesh edges",
-        Some("0"),
-    ),
-    (Claim::ManifoldEdges, "most triangles at an edge", Some("2")),
-    (
-        Claim::BoundaryOnSegments,
-        "edges of one triangle on no input segment",
-        Some("0"),
-    ),
-    (
-        Claim::ConstrainedDelaunay,
-        "opposite angles above 180°, degrees",
-        Some("0"),
-    ),
-    (
-        Claim::PackingDisjoint,
-        "‖x − y‖ over the sum of the two packing radii, smallest",
-        None,
-    ),
-    (
-        Claim::Coverage,
-        "largest part left uncovered, of a circle in radians, of a segment as a share of it; by the rule of the later point the largest distance to the nearest vertex over c_b f",
-        None,
-    ),
-    (
-        Claim::BoundaryHeight,
-        "height over radius at which circles of neighbouring boundary vertices meet, smallest",
-        None,
-    ),
-    (
-        Claim::CornerAngles,
-        "angle of a triangle at an input angle under 60° over that angle, smallest",
-        None,
-    ),
-    (
-        Claim::NnPointLower,
-        "distance to the second nearest vertex over f, smallest at midpoints and circumcentres",
-        None,
-    ),
-    (Claim::NnPointUpper, "the same, largest", None),
-    (
-        Claim::VerticesUpper,
-        "vertices by share of their packing circle in the domain",
-        None,
-    ),
-];
-
-/// The worst value of a claim that is another column.
-pub(super) fn worst_elsewhere(claim: Claim) -> Option<&'static str> {
-    match claim {
-        Claim::MinAngle | Claim::MinAngleBeyondCorners => Some("min_angle_free_deg"),
-        Claim::NnVertexLower => Some("nn_over_f_min"),
-        Claim::NnVertexUpper => Some("nn_over_f_max"),
-        Claim::VerticesLower => Some("vertices"),
-        _ => None,
-    }
-}
-
-/// The column of a claim's worst value.
-pub(super) fn worst_column(claim: Claim) -> String {
-    worst_elsewhere(claim).map_or_else(|| format!("worst_{}", snake(claim)), str::to_owned)
-}
-
-/// The column that says in how many places a claim is broken.
-pub(super) fn broken_column(claim: Claim) -> String {
-    format!("broken_{}", snake(claim))
-}
-
-/// The column that says whether a claim applies.
-pub(super) fn applies_column(claim: Claim) -> String {
-    format!("applies_{}", snake(claim))
-}
-
-fn snake(claim: Claim) -> String {
-    claim.name().replace('-', "_")
-}
-
-/// The worst value of a claim where its column is left out.
-pub(super) fn worst_default(claim: Claim) -> Option<f64> {
-    let (.., default) = WORST.iter().find(|(known, ..)| *known == claim)?;
-    default.and_then(|text| text.parse().ok())
-}
-
-/// The worst value of each claim, in how many places it is broken, and whether it applies.
-fn claims() -> Vec<Column<Row>> {
-    fn check(report: &Report, claim: Claim) -> Option<&Check> {
-        report.certificate.check(claim)
-    }
-    let worst = WORST.iter().map(|&(claim, about, default)| {
-        let about = format!("worst value of `{claim}`: {about}");
-        maybe(&worst_column(claim), &about, move |report| check(report, claim)?.worst)
-            .paper(claim.lemma())
-            .or(default)
-    });
-    let applies = Claim::ALL.into_iter().map(|claim| {
-        let about =
-            format!("1 where the method guarantees `{claim}` and its hypotheses hold; else it is only measured");
-        of_mesh(&applies_column(claim), &about, move |report| {
-            Some(flag(check(report, claim)?.applies))
-        })
-        .or("1")
-    });
-    let broken = Claim::ALL.into_iter().map(|claim| {
-        let about = format!("in how many places `{claim}` does not hold: 0 where it holds");
-        of_mesh(&broken_column(claim), &about, move |report| {
-            Some(check(report, claim)?.broken.to_string())
-        })
-        .or("0")
-    });
-    worst.chain(broken).chain(applies).collect()
 }
 
 /// Angles where fronts met, and elsewhere.

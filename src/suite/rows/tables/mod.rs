@@ -18,8 +18,10 @@
 //! for (`--only`, `--domains`, `--timed`), or was skipped for want of something that this machine lacks, a peer or memory, and the
 //! earlier line is of a mesh. Lines of cells that the plan no longer has go. `run.toml` keeps who made the lines that stayed.
 
+mod asked;
 mod beside;
 mod cause;
+mod claims;
 pub mod column;
 mod meshes;
 #[cfg(test)]

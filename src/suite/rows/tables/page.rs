@@ -43,7 +43,7 @@ Each experiment leaves a folder of tables under `results/`. They are plain CSV: 
 DuckDB `FROM 'results/*/meshes.csv'`. They are joined by `key`, `angles.csv` by `fingerprint`.
 
 * Lines stand in the plan's order. Cells that failed, declined or were skipped have a line too, with the reason.
-* Measured numbers have 9 significant digits; what a cell asks for has all. Names end in the unit: `_deg` is degrees, `_seconds`,
+* Measured numbers have 9 significant digits, but where the column says 3; what a cell asks for has all. Names end in the unit: `_deg` is degrees, `_seconds`,
   `_bytes`; lengths are in the domain's unit. 1 and 0 are yes and no.
 * A column that says nothing on all lines is left out, and so is one that says the same default on all: the last column below has it.
 * Two runs of the same code on one machine give the same bytes in all tables but `times.csv`. So a diff in `meshes.csv` is a change of

@@ -1,8 +1,10 @@
 //! Rows from their tables. What follows from other columns is worked out again by the formulas that made it.
 
+use super::asked::outcome_word;
 use super::beside::{BINS, SECONDS, SET_UP, STEP, bin_column};
+use super::claims::{applies_column, broken_column, worst_column, worst_default};
 use super::column::{Line, Table, TableError};
-use super::meshes::{applies_column, broken_column, outcome_word, solver_word, worst_column, worst_default};
+use super::meshes::solver_word;
 use crate::meshers::{self, Mesher, Parameters, parameter_value};
 use crate::quality::{Angles, Certificate, Check, Percentiles, Range, Seams, Statistics};
 use crate::suite::fem::{Solution, Solver, Spectrum};
@@ -131,8 +133,7 @@ fn report(line: &Line, cell: &Cell) -> Result<Report, TableError> {
         integral,
         integral_error,
         integral_lfs,
-        // From their columns, for all that derived ones have nine digits too.
-        size_ratio: line.get("size_ratio")?,
+        size_ratio: triangles / integral,
         size_ratio_lfs: triangles / integral_lfs,
         size_efficiency: line.get("size_efficiency")?,
         min_angle_bound_deg: promises.min_angle_deg(),
