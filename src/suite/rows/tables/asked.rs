@@ -36,17 +36,17 @@ pub(super) fn asked() -> Vec<Column<Row>> {
         })
         .paper("§5"),
         column("seed", "of random choices", |row| Some(row.cell.seed.to_string())).or("0"),
-        column("lfs_cap", "1 where f is capped by lfs, so that f ≤ lfs", |row| {
+        column("lfs_cap", "1 if f is capped by lfs, so that f ≤ lfs", |row| {
             Some(flag(row.cell.lfs_cap))
         })
         .paper("§5")
         .or("1"),
         column(
             "wanted_triangles",
-            "triangles the mesh shall have: c_b is scaled for it, f staying as it is",
+            "triangles that the mesh is to have: c_b is scaled for it, f stays as it is",
             |row| Some(row.cell.triangles?.to_string()),
         ),
-        column("threads", "threads the mesher may use", |row| {
+        column("threads", "threads that the mesher may use", |row| {
             Some(row.cell.threads.to_string())
         })
         .or("1"),
@@ -62,13 +62,13 @@ pub(super) fn asked() -> Vec<Column<Row>> {
         column("adapt_rounds", "most rounds of adaptation", |row| {
             Some(row.cell.adapt?.rounds.to_string())
         }),
-        column("adapt_sample", "1 where the Hessian is that of u itself", |row| {
+        column("adapt_sample", "1 if the Hessian is that of u itself", |row| {
             Some(flag(row.cell.adapt?.sample))
         })
         .or("0"),
         column(
             "timed",
-            "1 where the cell runs alone and repeated: `times.csv` has its times",
+            "1 if the cell runs alone and is repeated: `times.csv` has its times",
             |row| Some(flag(row.cell.timed)),
         )
         .or("0"),
@@ -92,15 +92,15 @@ pub(super) fn ended() -> Vec<Column<Row>> {
         Column::new("reason", "why it is not measured", |row: &Row| row.reason.clone()),
         Column::new(
             "estimated_triangles",
-            "where there is no mesh: triangles expected, from ∫ dA / f²",
+            "if there is no mesh: triangles expected, from ∫ dA / f²",
             |row: &Row| row.report.is_none().then(|| number(row.estimated_triangles)),
         ),
         Column::new(
             "tries",
-            "where triangles are wanted: each c_b tried, `c_b:triangles`, the last part empty where there was no mesh",
+            "if triangles are wanted: each c_b tried, as `c_b:triangles`, the last part empty if there was no mesh",
             tries,
         ),
-        of_mesh("peer_version", "version of a mesher outside this crate", |report| {
+        of_mesh("peer_version", "version of the peer", |report| {
             Some(report.outside.as_ref()?.version.clone())
         }),
         of_mesh("fingerprint", "hash of points and triangles, bit by bit", |report| {
@@ -112,7 +112,7 @@ pub(super) fn ended() -> Vec<Column<Row>> {
             |report| report.statistics.vertices as f64,
         ),
         measure("triangles", "of the mesh", |report| report.statistics.triangles as f64),
-        of_mesh("holds", "1 where every check that applies holds", |report| {
+        of_mesh("holds", "1 if every check that applies holds", |report| {
             Some(flag(report.certificate.holds))
         }),
     ]

@@ -97,21 +97,21 @@ pub(super) fn broken<'a>() -> Vec<Column<Part<'a, (&'a Check, String)>>> {
         ),
         Column::new(
             "applies",
-            "1 where the method guarantees it and its hypotheses hold, so that this is a fault",
+            "1 if the method guarantees it and its hypotheses hold, so that this is a fault",
             |part: &Line| Some(flag(part.about.0.applies)),
         ),
         Column::new("worst", "worst value", |part: &Line| part.about.0.worst.map(number)),
-        Column::new("bound", "what it is held against", |part: &Line| {
+        Column::new("bound", "the bound that it breaks", |part: &Line| {
             part.about.0.bound.map(number)
         }),
-        Column::new("places", "in how many places it does not hold", |part: &Line| {
+        Column::new("places", "number of places where it does not hold", |part: &Line| {
             Some(part.about.0.broken.to_string())
         }),
         Column::new("x", "where the worst is, in the domain's unit", place(0)),
         Column::new("y", "the same", place(1)),
         Column::new(
             "cause",
-            "the hypotheses that the cell does not meet, `corners` where it is one about corners that the domain alone shows; empty for a fault",
+            "the hypotheses that the cell does not meet, or `corners` if one about corners fails, which only the domain shows; empty for a fault",
             |part: &Line| Some(part.about.1.clone()).filter(|cause| !cause.is_empty()),
         ),
     ]
@@ -163,7 +163,7 @@ pub(super) fn times<'a>([steps, set_ups]: [Vec<&str>; 2]) -> Vec<Column<Part<'a,
         }),
         Column::new(
             "repeats_differ",
-            "1 where a peer's repeat made another mesh; ours may not",
+            "1 if a peer's repeat made another mesh; ours may not",
             |part: &Line| Some(flag(part.report.outside.as_ref()?.repeats_differ)),
         )
         .or("0"),

@@ -22,12 +22,12 @@ const WORST: [(Claim, &str, Option<&str>); 15] = [
     (Claim::VerticesUsed, "mesh vertices in no triangle", Some("0")),
     (
         Claim::InputVertices,
-        "input vertices that are no mesh vertices",
+        "input vertices that are not mesh vertices",
         Some("0"),
     ),
     (
         Claim::InputSegments,
-        "input segments that are no chains of mesh edges",
+        "input segments that are not chains of mesh edges",
         Some("0"),
     ),
     (Claim::ManifoldEdges, "most triangles at an edge", Some("2")),
@@ -128,15 +128,14 @@ pub(super) fn claims() -> Vec<Column<Row>> {
         .or(default)
     });
     let applies = Claim::ALL.into_iter().map(|claim| {
-        let about =
-            format!("1 where the method guarantees `{claim}` and its hypotheses hold; else it is only measured");
+        let about = format!("1 if the method guarantees `{claim}` and its hypotheses hold; else it is only measured");
         of_mesh(&applies_column(claim), &about, move |report| {
             Some(flag(check(report, claim)?.applies))
         })
         .or("1")
     });
     let broken = Claim::ALL.into_iter().map(|claim| {
-        let about = format!("in how many places `{claim}` does not hold: 0 where it holds");
+        let about = format!("number of places where `{claim}` does not hold");
         of_mesh(&broken_column(claim), &about, move |report| {
             Some(check(report, claim)?.broken.to_string())
         })

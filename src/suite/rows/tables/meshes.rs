@@ -34,7 +34,7 @@ fn count(name: &str) -> Column<Row> {
     let own = name.to_owned();
     of_mesh(
         &format!("count_{name}"),
-        "what the mesher counts of itself under that name",
+        "a count that the mesher reports under that name",
         move |report| report.counts.get(&own).copied().map(number),
     )
 }
@@ -59,7 +59,7 @@ fn hypotheses() -> Vec<Column<Row>> {
     vec![
         Column::new(
             "tuned_c_b",
-            "where triangles are wanted: c_b of the mesh, to the last bit; its t is t · tuned_c_b / c_b",
+            "if triangles are wanted: c_b of the mesh, to the last bit; its t is t · tuned_c_b / c_b",
             |row: &Row| {
                 let scaled = row.report.as_ref().filter(|_| row.cell.triangles.is_some())?;
                 Some(exact(scaled.c_b))
@@ -76,11 +76,9 @@ fn hypotheses() -> Vec<Column<Row>> {
             "smallest angle between neighbouring segments that opens into the domain, degrees; 360 if none",
             |report| report.smallest_input_angle_deg,
         ),
-        measure(
-            "smallest_segment_angle_deg",
-            "the same on any side, inside or out",
-            |report| report.smallest_segment_angle_deg,
-        )
+        measure("smallest_segment_angle_deg", "the same, inside or outside", |report| {
+            report.smallest_segment_angle_deg
+        })
         .paper("§5.1"),
         measure(
             "low_head_on",
@@ -91,7 +89,7 @@ fn hypotheses() -> Vec<Column<Row>> {
         .or("0"),
         measure(
             "forced_pieces",
-            "boundary pieces that are no Delaunay edges",
+            "boundary pieces that are not Delaunay edges",
             |report| report.forced_pieces as f64,
         )
         .or("0"),
@@ -150,7 +148,7 @@ fn sizes() -> Vec<Column<Row>> {
 /// Angles, degrees.
 fn angles() -> Vec<Column<Row>> {
     vec![
-        measure("min_angle_bound_deg", "what `min-angle` is held against, degrees; 0 where there is no bound", |report| {
+        measure("min_angle_bound_deg", "the bound of `min-angle`, degrees; 0 if there is none", |report| {
             report.min_angle_bound_deg
         })
         .paper("Theorem 6.8"),
@@ -239,13 +237,13 @@ fn poisson() -> Vec<Column<Row>> {
         of("poisson_l2_norm", "L2 norm of u", |solution| {
             Some(number(solution.l2_norm))
         }),
-        of("poisson_solver", "where u_h comes from", |solution| {
+        of("poisson_solver", "the source of u_h", |solution| {
             Some(solver_word(solution.solver).into())
         }),
         of("poisson_iterations", "iterations of conjugate gradients", |solution| {
             Some(solution.iterations.to_string())
         }),
-        of("poisson_converged", "1 where they came to the residual", |solution| {
+        of("poisson_converged", "1 if they reached the residual", |solution| {
             Some(flag(solution.converged))
         }),
         spectrum(
