@@ -1,7 +1,6 @@
 //! Groups that are tallied: chunks, kills, shards, families without files, expectations.
 
 use super::{folder, run};
-use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
@@ -47,18 +46,9 @@ const FILES: &str = r#"
     c_b = [0.75]
 "#;
 
-/// The chunks of a file, without what may differ from run to run.
-fn chunks(file: &Path) -> Vec<Value> {
-    let text = fs::read_to_string(file).expect("chunks");
-    let parse = |line: &str| {
-        let mut chunk: Value = serde_json::from_str(line).expect("a chunk");
-        chunk["provenance"] = Value::Null;
-        if let Some(tallies) = chunk["tallies"].as_array_mut() {
-            tallies.iter_mut().for_each(|tally| tally["seconds"] = Value::Null);
-        }
-        chunk
-    };
-    text.lines().map(parse).collect()
+/// The tables of a folder that are the same on every run.
+fn tables(folder: &Path) -> [String; 2] {
+    ["tally.csv", "cases.csv"].map(|name| fs::read_to_string(folder.join(name)).expect("a table"))
 }
 
 #[test]
@@ -67,28 +57,35 @@ fn cases_are_tallied_resumed_and_joined_from_shards() {
     plan(folder.path(), RANDOM);
     let (out, _) = run(folder.path(), &["sweep", "try.toml"], 0);
     assert!(out.contains("18 cases in 3 chunks, 3 chunks to run"), "{out}");
-    let file = folder.path().join("results/try/chunks.jsonl");
-    let whole = chunks(&file);
-    assert_eq!(whole.len(), 3);
-    assert_eq!(whole[1]["tallies"][0]["cases"]["certified"], 3, "{whole:?}");
-    let page = fs::read_to_string(folder.path().join("results/try/README.md")).expect("a page");
+    let results = folder.path().join("results/try");
+    let whole = tables(&results);
+    let lines: Vec<&str> = whole[0].lines().collect();
+    assert_eq!(lines.len(), 7, "a line a method on a family: {whole:?}");
+    assert!(
+        lines[0].starts_with("family,method,certified,") && lines[3].starts_with("fan,biting,3,"),
+        "{whole:?}"
+    );
+    let page = fs::read_to_string(results.join("README.md")).expect("a page");
     assert!(page.contains("Of 18 hard cases, "), "{page}");
+    assert!(!results.join("journal-cases.jsonl").exists(), "tables are in its place");
 
+    let sharded = |shard: &str| {
+        let arguments = ["sweep", "try.toml", "--results", "split", "--shard", shard];
+        run(folder.path(), &arguments, 0)
+    };
+    sharded("1/2");
+    let file = folder.path().join("split/try/journal-cases.1-of-2.jsonl");
     let bytes = fs::read(&file).expect("read");
     fs::write(&file, &bytes[..bytes.len() - 100]).expect("cut off, as by a kill");
-    let (out, err) = run(folder.path(), &["sweep", "try.toml"], 0);
+    let (out, err) = sharded("1/2");
     assert!(out.contains("1 chunks to run") && err.contains("cut off"), "{out}{err}");
-    assert_eq!(chunks(&file), whole, "the digests of the meshes too");
-
-    for shard in ["1/2", "2/2"] {
-        run(
-            folder.path(),
-            &["sweep", "try.toml", "--results", "split", "--shard", shard],
-            0,
-        );
-    }
+    sharded("2/2");
     run(folder.path(), &["sweep", "merge", "try.toml", "--results", "split"], 0);
-    assert_eq!(chunks(&folder.path().join("split/try/chunks.jsonl")), whole);
+    assert_eq!(
+        tables(&folder.path().join("split/try")),
+        whole,
+        "the digests of the meshes too"
+    );
 
     let (out, _) = run(folder.path(), &["sweep", "try.toml", "--quick", "--dry-run"], 0);
     assert!(out.contains("try-quick: 6 cases"), "{out}");
@@ -113,19 +110,19 @@ fn a_family_without_files_is_skipped_and_not_passed() {
     for (name, points) in files {
         fs::write(folder.path().join(format!("outlines/{name}.geojson")), ring(points)).expect("written");
     }
-    let (out, _) = run(folder.path(), &["sweep", "try.toml"], 0);
-    assert!(out.contains("1 chunks to run"), "{out}");
-    let found = chunks(&folder.path().join("results/try/chunks.jsonl"));
-    let cases = &found[3]["tallies"][0]["cases"];
+    run(folder.path(), &["sweep", "try.toml"], 0);
+    let [tally, cases] = tables(&folder.path().join("results/try"));
+    let head: Vec<&str> = tally.lines().next().expect("a head").split(',').collect();
+    let last: Vec<&str> = tally.lines().last().expect("a line").split(',').collect();
+    let count = |verdict: &str| head.iter().position(|name| *name == verdict).map(|place| last[place]);
     assert_eq!(
-        (&cases["certified"], &cases["refused"]),
-        (&Value::from(1), &Value::from(1)),
-        "{found:?}"
+        (count("certified"), count("refused")),
+        (Some("1"), Some("1")),
+        "{tally}"
     );
     assert!(
-        found[3]["uncertified"][0]["command"]
-            .as_str()
-            .is_some_and(|text| text.contains("crossing.geojson"))
+        cases.contains("outlines,biting,refused,outlines/crossing.geojson,"),
+        "{cases}"
     );
 }
 

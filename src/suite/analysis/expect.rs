@@ -1,4 +1,6 @@
-//! What an experiment expected, held against its rows.
+//! What an experiment expected, held against what it left.
+
+mod tally;
 
 use crate::suite::analysis::convergence::{Convergence, convergence};
 use crate::suite::analysis::results::Results;
@@ -51,6 +53,7 @@ pub fn findings(results: &Results) -> Vec<Finding> {
     if let Some(range) = expect.adapted_slope {
         findings.extend(adapted_slopes(results, range));
     }
+    findings.extend(tally::findings(expect, &results.families));
     for (domain, &least) in &expect.measured_per_domain {
         let measured = count_measured(rows.iter().filter(|row| &row.cell.domain == domain));
         findings.push(Finding {

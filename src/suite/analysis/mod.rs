@@ -3,7 +3,6 @@
 pub mod contest;
 pub mod convergence;
 pub mod expect;
-pub mod expect_battery;
 pub mod frontier;
 pub mod measures;
 pub mod remarks;

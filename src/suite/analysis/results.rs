@@ -4,15 +4,12 @@
 use crate::suite::analysis::contest::Contest;
 use crate::suite::analysis::measures::{AT_EQUAL_COUNT, AT_EQUAL_SIZE, Measure, REASONS};
 use crate::suite::analysis::summary::{Grid, by_spacing};
-use crate::suite::rows::journal::JournalError;
 use crate::suite::rows::record::Row;
 use crate::suite::rows::tables::{Made, RUN, TableError, Tables};
+use crate::suite::rows::tally::Family;
 use crate::suite::run::plan::{Expectations, Plan, PlanError, Section};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-
-/// The copy of its plan in a folder of tallied cases.
-pub const PLAN: &str = "plan.toml";
 
 /// Why there are no results.
 #[derive(Debug, thiserror::Error)]
@@ -23,9 +20,6 @@ pub enum ResultsError {
     /// The tables could not be read.
     #[error(transparent)]
     Tables(#[from] TableError),
-    /// The chunks of tallied cases could not be read.
-    #[error(transparent)]
-    Chunks(#[from] JournalError),
 }
 
 /// All methods asked alike.
@@ -57,6 +51,8 @@ pub struct Results {
     pub made: Vec<Made>,
     /// Its rows.
     pub rows: Vec<Row>,
+    /// What its cases came to that are tallied.
+    pub families: Vec<Family>,
 }
 
 impl Results {
@@ -70,6 +66,7 @@ impl Results {
             headline: plan.headline,
             made: tables.run.made,
             rows: tables.rows,
+            families: tables.families,
         }
     }
 

@@ -4,7 +4,7 @@
 
 use super::exit::{Failure, Outcome};
 use super::output::{say, say_aside};
-use super::sweep::{How, Place, run_cells};
+use super::sweep::{How, Place, run_plan};
 use crate::meshers::MESHERS;
 use crate::suite::peers::{AnyEntry, PEERS, install};
 
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let plan = arguments.place.plan(DEFAULT)?;
     let has = |list: &[String], name: &String| list.is_empty() || list.contains(name);
-    run_cells(&plan, &arguments.place.folder(&plan), &arguments.how, None, |cell| {
+    run_plan(&plan, &arguments.place.folder(&plan), &arguments.how, None, |cell| {
         has(&arguments.only, &cell.mesher) && has(&arguments.domains, &cell.domain)
     })
 }

@@ -8,7 +8,6 @@ use std::process::ExitCode;
 
 mod adapt;
 mod asked;
-mod battery;
 mod budget;
 mod check;
 mod compare;
@@ -23,6 +22,7 @@ mod report;
 mod shards;
 mod stages;
 mod sweep;
+mod tally;
 mod values;
 
 /// Provably good triangle meshes by biting circles off an advancing front, and the experiment about them.
@@ -53,8 +53,8 @@ enum Verb {
     Report(report::Arguments),
     /// List domains, meshers with parameters, spacings, peers and experiments
     List,
-    /// Run the cases that come in on standard input, one a line: what a sweep of batteries starts
-    #[command(name = battery::WORKER, hide = true)]
+    /// Run the cases that come in on standard input, one a line: what a sweep of cases that are tallied starts
+    #[command(name = tally::WORKER, hide = true)]
     RunCases,
 }
 
@@ -70,7 +70,7 @@ pub fn main() -> ExitCode {
         Verb::Lemmas(arguments) => lemmas::run(&arguments),
         Verb::Report(arguments) => report::run(&arguments),
         Verb::List => list::run(),
-        Verb::RunCases => battery::work(),
+        Verb::RunCases => tally::work(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

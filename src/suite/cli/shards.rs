@@ -25,6 +25,9 @@ pub fn file_name(whole: &str, shard: Option<Shard>) -> String {
 
 /// Joins the rows, or chunks, of shards. Those of the file of all are kept where no shard has them.
 pub fn join<R: Record>(folder: &Path, whole: &str, keys: &[String]) -> Result<Vec<R>, Failure> {
+    if keys.is_empty() {
+        return Ok(Vec::new());
+    }
     let shards = shard_files(folder, whole)?;
     if shards.is_empty() {
         return Err(Failure::Input(format!(
@@ -57,7 +60,7 @@ pub fn join<R: Record>(folder: &Path, whole: &str, keys: &[String]) -> Result<Ve
 /// Removes the journal of all and those of the shards, whose rows are in tables now.
 pub fn remove(folder: &Path, whole: &str) -> Result<(), Failure> {
     let files = shard_files(folder, whole)?.into_iter().chain([folder.join(whole)]);
-    for file in files {
+    for file in files.filter(|file| file.exists()) {
         std::fs::remove_file(&file).map_err(|cause| Failure::Input(format!("{}: {cause}", file.display())))?;
     }
     Ok(())

@@ -1,11 +1,11 @@
 //! `sweep [EXPERIMENT.toml]`: the main job.
 
-use super::battery;
 use super::exit::{Failure, Outcome};
 use super::list::EXPERIMENTS;
 use super::output::{say, say_aside};
 use super::progress::Progress;
 use super::shards::{self, file_name, join, say_done};
+use super::tally;
 use super::values::bytes;
 use crate::suite::analysis::expect::{Finding, anything_measured, findings};
 use crate::suite::analysis::results::Results;
@@ -13,10 +13,10 @@ use crate::suite::rows::journal::{JOURNAL, Journal, Record};
 use crate::suite::rows::machine;
 use crate::suite::rows::record::{Cell, Provenance, Row};
 use crate::suite::rows::tables::Tables;
+use crate::suite::rows::tally::{CHUNKS, Chunk};
 use crate::suite::run::plan::{Plan, PlannedCell};
 use crate::suite::run::prepare::Store;
 use crate::suite::run::runner::{self, Sweep};
-use crate::suite::run::tally::CHUNKS;
 use crate::suite::run::work::{self, Shard, Task};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -73,7 +73,7 @@ pub struct Place {
 pub struct How {
     /// Start anew also where a run was stopped; what it had measured is kept under another name
     #[arg(long)]
-    fresh: bool,
+    pub(super) fresh: bool,
     /// Print the cells and an estimate of the time, and run nothing
     #[arg(long)]
     pub(super) dry_run: bool,
@@ -110,25 +110,43 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let plan = arguments.place.plan(DEFAULT)?;
     let folder = arguments.place.folder(&plan);
-    if plan.tallied().next().is_none() {
-        run_cells(&plan, &folder, &arguments.how, arguments.shard, |cell| {
-            cell.timed || !arguments.timed
-        })
-    } else {
-        battery::run(&plan, &folder, &arguments.of_battery())
-    }
+    run_plan(&plan, &folder, &arguments.how, arguments.shard, |cell| {
+        cell.timed || !arguments.timed
+    })
 }
 
-/// Runs those of a plan's cells that are wanted and that a stopped run has not measured, or the part of them that a shard has;
-/// then, but for a shard, writes tables, charts and page.
-pub fn run_cells(
+/// Runs those of a plan's cells that are wanted and that a stopped run has not measured, and its cases that are tallied, or the part
+/// of them that a shard has; then, but for a shard, writes tables, charts and page.
+pub fn run_plan(
     plan: &Plan,
     folder: &Path,
     how: &How,
     shard: Option<Shard>,
     is_wanted: impl Fn(&Cell) -> bool,
 ) -> Outcome {
+    let rows = run_cells(plan, folder, how, shard, is_wanted)?;
+    let chunks = tally::run(plan, folder, how, shard)?;
+    if let Some(shard) = shard.filter(|_| !how.dry_run) {
+        say_done(shard);
+    }
+    match rows.zip(chunks) {
+        Some((rows, chunks)) => finish(plan, folder, &rows, &chunks),
+        None => Ok(()),
+    }
+}
+
+/// Runs cells, and returns all rows there are, but for a dry run or a shard.
+fn run_cells(
+    plan: &Plan,
+    folder: &Path,
+    how: &How,
+    shard: Option<Shard>,
+    is_wanted: impl Fn(&Cell) -> bool,
+) -> Result<Option<Vec<Row>>, Failure> {
     let all = plan.cells().map_err(Failure::input)?;
+    if all.is_empty() {
+        return Ok((!how.dry_run && shard.is_none()).then(Vec::new));
+    }
     let cells: Vec<PlannedCell> = all.iter().filter(|planned| is_wanted(&planned.cell)).cloned().collect();
     for planned in &cells {
         runner::mesher(&planned.cell)
@@ -136,29 +154,22 @@ pub fn run_cells(
     }
     let store = Store::new(None, false);
     if how.dry_run {
-        return dry_run(
-            plan,
-            &cells,
-            &tasks(plan, &cells, &store, how.threads())?,
-            how.threads(),
-        );
+        let threads = how.threads();
+        dry_run(plan, &cells, &tasks(plan, &cells, &store, threads)?, threads);
+        return Ok(None);
     }
     let provenance = machine::provenance();
     let mut journal = open(&folder.join(file_name(JOURNAL, shard)))?;
     start_anew_if_needed(how.fresh, &all, &mut journal, &provenance)?;
     how.run_pending(plan, &cells, shard, &store, &mut journal, &provenance)?;
-    if let Some(shard) = shard {
-        say_done(shard);
-        return Ok(());
-    }
-    let rows: Vec<Row> = journal.lines().iter().map(|line| line.row.clone()).collect();
-    let tables = write_tables(plan, folder, &all, &rows)?;
-    journal.remove().map_err(Failure::input)?;
-    finish(plan, folder, tables)
+    Ok(shard
+        .is_none()
+        .then(|| journal.lines().iter().map(|line| line.row.clone()).collect()))
 }
 
 /// Writes the tables of a run that is finished; [`crate::suite::rows::tables`] says which lines of earlier ones stay.
-fn write_tables(plan: &Plan, folder: &Path, cells: &[PlannedCell], rows: &[Row]) -> Result<Tables, Failure> {
+fn write_tables(plan: &Plan, folder: &Path, rows: &[Row], chunks: &[Chunk]) -> Result<Tables, Failure> {
+    let cells = plan.cells().map_err(Failure::input)?;
     let by_key: HashMap<&str, &PlannedCell> = cells.iter().map(|planned| (planned.key.as_str(), planned)).collect();
     let is_final = |row: &Row| {
         by_key
@@ -171,7 +182,7 @@ fn write_tables(plan: &Plan, folder: &Path, cells: &[PlannedCell], rows: &[Row])
         false => Some(Tables::read(folder).map_err(Failure::input)?),
     };
     let keys = cells.iter().map(|planned| planned.key.as_str());
-    let tables = Tables::gather(&plan.text, keys, rows, is_final, earlier);
+    let tables = Tables::gather(&plan.text, keys, rows, is_final, chunks, earlier);
     tables.write(folder).map_err(Failure::input)?;
     Ok(tables)
 }
@@ -189,19 +200,8 @@ pub fn open<R: Record>(file: &Path) -> Result<Journal<R>, Failure> {
     Ok(journal)
 }
 
-impl Arguments {
-    fn of_battery(&self) -> battery::Run {
-        battery::Run {
-            fresh: self.how.fresh,
-            dry_run: self.how.dry_run,
-            shard: self.shard,
-            threads: self.how.threads(),
-        }
-    }
-}
-
 impl How {
-    fn threads(&self) -> usize {
+    pub(super) fn threads(&self) -> usize {
         self.threads
             .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from))
             .max(1)
@@ -287,7 +287,7 @@ fn tasks(plan: &Plan, cells: &[PlannedCell], store: &Store, threads: usize) -> R
         .map_err(|error| Failure::Input(format!("{}: {error}", plan.file.display())))
 }
 
-fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -> Outcome {
+fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) {
     let (mut seconds, mut meshes, mut skipped) = (0.0, 0, 0);
     for unit in tasks.iter().flat_map(|task| &task.units) {
         let first = &cells[unit.cells[0]];
@@ -320,29 +320,33 @@ fn dry_run(plan: &Plan, cells: &[PlannedCell], tasks: &[Task], threads: usize) -
         let groups: Vec<&str> = groups.iter().map(String::as_str).collect();
         say(format_args!("its page shows `{section}` of {}", groups.join(", ")));
     }
-    Ok(())
 }
 
 fn merge(plan: &Plan, folder: &Path) -> Outcome {
-    if plan.tallied().next().is_none() {
-        let cells = plan.cells().map_err(Failure::input)?;
-        let keys: Vec<String> = cells.iter().map(|planned| planned.key.clone()).collect();
-        let tables = write_tables(plan, folder, &cells, &join(folder, JOURNAL, &keys)?)?;
-        shards::remove(folder, JOURNAL)?;
-        finish(plan, folder, tables)
-    } else {
-        battery::finish(plan, folder, &join(folder, CHUNKS, &battery::keys(plan))?)
-    }
+    let cells = plan.cells().map_err(Failure::input)?;
+    let keys: Vec<String> = cells.into_iter().map(|planned| planned.key).collect();
+    let rows = join(folder, JOURNAL, &keys)?;
+    finish(plan, folder, &rows, &join(folder, CHUNKS, &tally::keys(plan))?)
 }
 
-/// Charts, page and verdict, once there are tables.
-fn finish(plan: &Plan, folder: &Path, tables: Tables) -> Outcome {
-    let rows = &tables.rows;
-    if !anything_measured(rows) {
-        let reason = rows
+/// Tables in place of the journals, then charts, page and verdict, once everything is run.
+fn finish(plan: &Plan, folder: &Path, rows: &[Row], chunks: &[Chunk]) -> Outcome {
+    let tables = write_tables(plan, folder, rows, chunks)?;
+    for journal in [JOURNAL, CHUNKS] {
+        shards::remove(folder, journal)?;
+    }
+    let skipped = tables
+        .families
+        .iter()
+        .filter_map(|family| Some((&family.name, family.skipped.as_ref()?)));
+    skipped.for_each(|(family, reason)| say(format_args!("skipped {family}: {reason}")));
+    let is_tallied = tables.families.iter().any(|family| !family.tallies.is_empty());
+    if !anything_measured(&tables.rows) && !is_tallied {
+        let reason = tables
+            .rows
             .iter()
             .find_map(|row| row.reason.as_deref())
-            .unwrap_or("no cell was run");
+            .unwrap_or("there were no cells or cases to run");
         return Err(Failure::NothingMeasured(format!("nothing could be measured: {reason}")));
     }
     super::report::write(folder)?;
@@ -350,7 +354,7 @@ fn finish(plan: &Plan, folder: &Path, tables: Tables) -> Outcome {
 }
 
 /// Tells what was expected and what came out.
-pub fn tell(findings: &[Finding]) -> Outcome {
+fn tell(findings: &[Finding]) -> Outcome {
     for finding in findings {
         say(format_args!(
             "{} {}: {}",

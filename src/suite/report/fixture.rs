@@ -265,7 +265,13 @@ pub(super) fn leave(rows: &[Row], folder: &Path) {
         made: vec![made],
     };
     let rows = rows.to_vec();
-    Tables { rows, run }.write(folder).expect("written");
+    Tables {
+        rows,
+        families: Vec::new(),
+        run,
+    }
+    .write(folder)
+    .expect("written");
 }
 
 /// Rows with their plan, in the order in which they stand here.

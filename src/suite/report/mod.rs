@@ -5,7 +5,6 @@
 
 mod adaptation;
 mod angle;
-mod battery;
 mod certificate;
 mod corners;
 mod drawer;
@@ -27,6 +26,7 @@ mod seams;
 mod sections;
 mod size;
 mod standings;
+mod tally;
 mod tasks;
 mod threads;
 mod time;
@@ -38,28 +38,13 @@ mod tests;
 
 pub use quote::quote;
 
-use crate::suite::analysis::results::{PLAN, Results, ResultsError};
+use crate::suite::analysis::results::{Results, ResultsError};
 use crate::suite::charts::ChartError;
 use crate::suite::files::write_whole;
-use crate::suite::rows::journal::{JournalError, read_rows};
-use crate::suite::rows::tables::Tables;
-use crate::suite::run::plan::{Plan, PlanError, Section};
-use crate::suite::run::tally::CHUNKS;
+use crate::suite::run::plan::Section;
 use drawer::{Chart, Drawer};
 use sections::Entry;
 use std::path::{Path, PathBuf};
-
-impl From<PlanError> for ReportError {
-    fn from(error: PlanError) -> Self {
-        ResultsError::from(error).into()
-    }
-}
-
-impl From<JournalError> for ReportError {
-    fn from(error: JournalError) -> Self {
-        ResultsError::from(error).into()
-    }
-}
 
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]
@@ -80,20 +65,15 @@ pub enum ReportError {
     },
 }
 
-/// Reads the tables of a folder, or `chunks.jsonl` and `plan.toml` where there is that in their place; writes
+/// Reads the tables of a folder; writes
 /// `folder/charts/*.svg`, `*.png` and `folder/README.md`, and returns the page's path.
 ///
 /// # Errors
 /// [`ReportError`]: no tables there, a line that cannot be read, or a file that cannot be written.
 pub fn write(folder: &Path) -> Result<PathBuf, ReportError> {
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
-    let text = if is_battery(folder) {
-        let plan = Plan::read(&folder.join(PLAN))?;
-        battery::page(&read_rows(&folder.join(CHUNKS))?, &plan, &name)
-    } else {
-        let results = read(folder)?;
-        page::page(&results, &draw(&results, folder)?, &name)
-    };
+    let results = read(folder)?;
+    let text = page::page(&results, &draw(&results, folder)?, &name);
     let path = folder.join("README.md");
     write_whole(&path, text.as_bytes()).map_err(|source| ReportError::Write {
         path: path.clone(),
@@ -113,20 +93,11 @@ fn draw(results: &Results, folder: &Path) -> Result<Vec<(Section, Vec<Chart>)>, 
     Ok(drawn)
 }
 
-/// Whether the folder holds tallied cases in place of rows.
-fn is_battery(folder: &Path) -> bool {
-    !Tables::are_in(folder) && folder.join(CHUNKS).exists()
-}
-
 /// The findings that answer the question of an experiment, each a sentence of at most 25 words.
 ///
 /// # Errors
 /// [`ReportError`]: results that cannot be read.
 pub fn headline(folder: &Path) -> Result<Vec<String>, ReportError> {
-    if is_battery(folder) {
-        let findings = battery::findings(&read_rows(&folder.join(CHUNKS))?);
-        return Ok(findings.into_iter().take(1).collect());
-    }
     Ok(page::headline(&read(folder)?))
 }
 

@@ -3,6 +3,7 @@
 use super::drawer::Chart;
 use super::markdown::{number, parameter, plain, table};
 use super::sections::Entry;
+use crate::suite::analysis::expect::{self, Finding};
 use crate::suite::analysis::results::Results;
 use crate::suite::analysis::summary::{by_spacing, measured};
 use crate::suite::rows::numbers::{first_seen, quantile, spread};
@@ -16,6 +17,7 @@ pub(super) fn page(results: &Results, charts: &[(Section, Vec<Chart>)], name: &s
     text += &format!("**Question.** {}\n\n", results.question);
     text += &format!("**In short.** {}\n\n", headline(results).join(" "));
     text += &format!("## Findings\n\n{}\n", bullets(findings(results)));
+    text += &expected(results);
     text += &what_was_run(results, name);
     for (section, charts) in charts {
         let Entry { title, text: body, .. } = Entry::of(*section);
@@ -26,7 +28,23 @@ pub(super) fn page(results: &Results, charts: &[(Section, Vec<Chart>)], name: &s
         }
         text += &charts.iter().map(shown).collect::<String>();
     }
+    if results.rows.is_empty() {
+        return text;
+    }
     text + &unmeasured(&results.rows)
+}
+
+/// What the plan expected, and what came out.
+fn expected(results: &Results) -> String {
+    let line = |finding: Finding| {
+        let holds = if finding.holds { "yes" } else { "**no**" };
+        vec![finding.expected, finding.found, holds.to_owned()]
+    };
+    let lines: Vec<_> = expect::findings(results).into_iter().map(line).collect();
+    if lines.is_empty() {
+        return String::new();
+    }
+    "## What was expected\n\n".to_owned() + &table(&["expected", "found", "holds"], &lines)
 }
 
 /// What makes the page, and from what.
@@ -40,7 +58,7 @@ fn how_it_is_made(name: &str, charts: &[(Section, Vec<Chart>)]) -> String {
     } else {
         ""
     };
-    format!("Made by `biting report results/{name}` from the rows and the plan beside this page.{pictures}\n\n")
+    format!("Made by `biting report results/{name}` from what the run left beside this page.{pictures}\n\n")
 }
 
 fn shown(chart: &Chart) -> String {
@@ -72,7 +90,7 @@ pub(super) fn headline(results: &Results) -> Vec<String> {
     }
 }
 
-pub(super) fn bullets(lines: impl IntoIterator<Item = String>) -> String {
+fn bullets(lines: impl IntoIterator<Item = String>) -> String {
     lines.into_iter().map(|line| format!("* {line}\n")).collect()
 }
 
@@ -103,6 +121,9 @@ fn what_was_run(results: &Results, name: &str) -> String {
         line(domain, &own)
     });
     let mut text = String::from("## What was run\n\n") + &provenance(results, name);
+    if rows.is_empty() {
+        return text;
+    }
     text += &table(&head("group of cells"), &by_group);
     if meshers.len() > 1 {
         text += &table(&head("mesher"), &by_mesher.collect::<Vec<_>>());

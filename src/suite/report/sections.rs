@@ -3,7 +3,7 @@
 use super::drawer::Drawer;
 use super::{
     adaptation, angle, certificate, corners, duels, fewest, frontier, meshes, methods, orders, oversampling, peers,
-    poisson, rules, seams, size, tasks, threads, time,
+    poisson, rules, seams, size, tally, tasks, threads, time,
 };
 use crate::suite::analysis::results::Results;
 use crate::suite::charts::ChartError;
@@ -82,7 +82,7 @@ impl Entry {
                 oversampling::charts,
             ),
             Section::Certificate => Self::new("Certificate", certificate::findings, certificate::text, no_charts),
-            Section::Tally => Self::new("Cases", no_findings, |_| String::new(), no_charts),
+            Section::Tally => Self::new("Cases", tally::findings, tally::text, no_charts),
             Section::Meshes => Self::new("Meshes", no_findings, meshes::text, meshes::charts),
         }
     }

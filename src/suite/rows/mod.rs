@@ -7,4 +7,5 @@ pub mod machine;
 pub mod numbers;
 pub mod record;
 pub mod tables;
+pub mod tally;
 pub mod times;

@@ -7,9 +7,12 @@
 //! | `broken.csv` | a check that does not hold although the method promises it under its hypotheses |
 //! | `times.csv` | a cell that ran alone: repeats, their median and spread, steps, memory |
 //! | `rounds.csv` | a round of an adaptation |
+//! | `tally.csv` | a method on a family of cases that are tallied: how many ended how |
+//! | `cases.csv` | such a case that is not certified: why, and the command that runs it again |
+//! | `tally_times.csv` | a method on a family: seconds |
 //! | `run.toml` | who made it and when, and the plan |
 //!
-//! Two runs of the same code give the same bytes but for `times.csv` and `run.toml`: numbers that were measured have 9 digits,
+//! Two runs of the same code give the same bytes but for `times.csv`, `tally_times.csv` and `run.toml`: numbers that were measured have 9 digits,
 //! and what depends on the machine stands apart. `docs/rows.md` has every column; [`page`] writes it from the very
 //! list that writes the tables.
 //!
@@ -28,6 +31,7 @@ mod meshes;
 mod page;
 mod read;
 mod run_file;
+mod tally;
 #[cfg(test)]
 mod tests;
 
@@ -37,6 +41,7 @@ use page::page;
 pub use run_file::{Made, RunFile};
 
 use super::record::Row;
+use super::tally::{Chunk, Family};
 use crate::suite::files::write_together;
 use beside::{angles, breaches, broken, histograms, parts, rounds, timed, times};
 use column::write;
@@ -53,6 +58,12 @@ pub const BROKEN: &str = "broken.csv";
 pub const TIMES: &str = "times.csv";
 /// Rounds of adaptation.
 pub const ROUNDS: &str = "rounds.csv";
+/// Cases that are tallied.
+pub const TALLY: &str = "tally.csv";
+/// Those that are not certified.
+pub const CASES: &str = "cases.csv";
+/// What they took.
+pub const TALLY_TIMES: &str = "tally_times.csv";
 /// Who made it, and the plan.
 pub const RUN: &str = "run.toml";
 
@@ -61,6 +72,8 @@ pub const RUN: &str = "run.toml";
 pub struct Tables {
     /// A row a cell, in the plan's order. Reports say no provenance: `run` does.
     pub rows: Vec<Row>,
+    /// What cases came to that are tallied.
+    pub families: Vec<Family>,
     /// Who made it, and the plan.
     pub run: RunFile,
 }
@@ -68,7 +81,7 @@ pub struct Tables {
 impl Tables {
     /// Whether a folder has tables.
     pub fn are_in(folder: &Path) -> bool {
-        folder.join(MESHES).is_file()
+        [MESHES, TALLY].iter().any(|name| folder.join(name).is_file())
     }
 
     /// Reads the tables of a folder.
@@ -77,7 +90,16 @@ impl Tables {
     /// [`TableError`], naming file and line.
     pub fn read(folder: &Path) -> Result<Self, TableError> {
         let path = folder.join(RUN);
-        let mut rows = read::meshes(&folder.join(MESHES))?;
+        let families = match folder.join(TALLY).is_file() {
+            true => tally::read(folder)?,
+            false => Vec::new(),
+        };
+        // A plan whose groups are all tallied leaves no meshes.
+        let has_rows = families.is_empty() || folder.join(MESHES).is_file();
+        let mut rows = match has_rows {
+            true => read::meshes(&folder.join(MESHES))?,
+            false => Vec::new(),
+        };
         let text = std::fs::read_to_string(&path).map_err(|cause| TableError::Io {
             path: path.clone(),
             cause,
@@ -88,28 +110,32 @@ impl Tables {
             problem: problem.to_string().trim_end().to_owned(),
         })?;
         let mut reports = read::Reports::of(&mut rows);
-        reports.add_angles(&folder.join(ANGLES))?;
-        reports.add_broken(&folder.join(BROKEN))?;
+        if has_rows {
+            reports.add_angles(&folder.join(ANGLES))?;
+            reports.add_broken(&folder.join(BROKEN))?;
+        }
         if folder.join(TIMES).is_file() {
             reports.add_times(&folder.join(TIMES))?;
         }
         if folder.join(ROUNDS).is_file() {
             reports.add_rounds(&folder.join(ROUNDS))?;
         }
-        Ok(Self { rows, run })
+        Ok(Self { rows, families, run })
     }
 
     /// The tables of a run that is finished: for each key of the plan the row that the run has, unless an earlier one stays.
-    /// `rows` are those of the run; of these `is_final` says whether it takes the place of an earlier mesh.
+    /// `rows` are those of the run; of these `is_final` says whether it takes the place of an earlier mesh. `chunks` are all of the plan.
     pub fn gather<'a>(
         plan: &str,
         keys: impl IntoIterator<Item = &'a str>,
         rows: &[Row],
         is_final: impl Fn(&Row) -> bool,
+        chunks: &[Chunk],
         earlier: Option<Self>,
     ) -> Self {
         let earlier = earlier.unwrap_or_else(|| Self {
             rows: Vec::new(),
+            families: Vec::new(),
             run: RunFile::default(),
         });
         let by_key =
@@ -124,9 +150,14 @@ impl Tables {
             has_stayed |= stays.is_some();
             gathered.extend(stays.or(new).cloned());
         }
-        let made = run_file::made(&gathered, if has_stayed { &earlier.run.made } else { &[] });
+        let of_rows = gathered
+            .iter()
+            .filter_map(|row| row.report.as_ref()?.provenance.as_ref());
+        let all = of_rows.chain(chunks.iter().map(|chunk| &chunk.provenance));
+        let made = run_file::made(all, if has_stayed { &earlier.run.made } else { &[] });
         Self {
             rows: gathered,
+            families: Family::of(chunks),
             run: RunFile {
                 plan: plan.to_owned(),
                 made,
@@ -150,7 +181,7 @@ impl Tables {
             cause,
         };
         write_together(&files).map_err(|(path, cause)| failed(path, cause))?;
-        for name in [TIMES, ROUNDS] {
+        for name in [MESHES, ANGLES, BROKEN, TIMES, ROUNDS, TALLY, CASES, TALLY_TIMES] {
             let path = folder.join(name);
             if path.exists() && files.iter().all(|(written, _)| *written != path) {
                 std::fs::remove_file(&path).map_err(|cause| failed(&path, cause))?;
@@ -162,12 +193,23 @@ impl Tables {
     /// Name and text of each table.
     fn texts(&self) -> Vec<(&'static str, String)> {
         let rows = &self.rows;
-        let mut texts = vec![
-            (MESHES, write(&meshes::columns(meshes::counted(rows)), rows)),
-            (ANGLES, write(&angles(), &histograms(rows))),
-            (BROKEN, write(&broken(), &breaches(rows))),
-            (RUN, self.run.text()),
-        ];
+        let mut texts = Vec::new();
+        if !rows.is_empty() || self.families.is_empty() {
+            texts.extend([
+                (MESHES, write(&meshes::columns(meshes::counted(rows)), rows)),
+                (ANGLES, write(&angles(), &histograms(rows))),
+                (BROKEN, write(&broken(), &breaches(rows))),
+            ]);
+        }
+        texts.push((RUN, self.run.text()));
+        if !self.families.is_empty() {
+            let counts = tally::counts(&self.families);
+            texts.extend([
+                (TALLY, write(&tally::columns(), &counts)),
+                (TALLY_TIMES, write(&tally::times(), &counts)),
+                (CASES, write(&tally::case_columns(), &tally::cases(&self.families))),
+            ]);
+        }
         let alone = parts(rows, |report| report.times.as_ref());
         if !alone.is_empty() {
             texts.push((TIMES, write(&times(timed(&alone)), &alone)));

@@ -2,7 +2,7 @@
 
 use super::beside::{angles, broken, rounds, times};
 use super::column::Column;
-use super::{ANGLES, BROKEN, MESHES, ROUNDS, RUN, TIMES, meshes};
+use super::{ANGLES, BROKEN, CASES, MESHES, ROUNDS, RUN, TALLY, TALLY_TIMES, TIMES, meshes, tally};
 
 /// What stands in a name where a table has a column for each of several names.
 const EACH: &str = "…";
@@ -27,6 +27,13 @@ pub fn page() -> String {
         "A line a round; not there where nothing was adapted.",
         &rounds(),
     );
+    text += &table(
+        TALLY,
+        "A line a method on a family of cases that are tallied; not there where none are.",
+        &tally::columns(),
+    );
+    text += &table(CASES, "A line a case that is not certified.", &tally::case_columns());
+    text += &table(TALLY_TIMES, "A line a method on a family.", &tally::times());
     text + &format!(
         "## `{RUN}`\n\n`plan` is the experiment's file as it was run. Each `[[made]]` says who made meshes of these tables: `version`, \
          `commit` and `dirty` of the code, `rustc`, `cpu`, `cores`, `os`, and the dates of the first and the last of them, `date` and \
@@ -46,7 +53,7 @@ DuckDB `FROM 'results/*/meshes.csv'`. They are joined by `key`, `angles.csv` by 
 * Measured numbers have 9 significant digits, but where the column says 3; what a cell asks for has all. Names end in the unit: `_deg` is degrees, `_seconds`,
   `_bytes`; lengths are in the domain's unit. 1 and 0 are yes and no.
 * A column that says nothing on all lines is left out, and so is one that says the same default on all: the last column below has it.
-* Two runs of the same code on one machine give the same bytes in all tables but `times.csv`. So a diff in `meshes.csv` is a change of
+* Two runs of the same code on one machine give the same bytes in all tables but `times.csv` and `tally_times.csv`. So a diff in `meshes.csv` is a change of
   behaviour. Peers that do not answer equal input by equal output are the exception (`repeats_differ`).
 * A run that is finished replaces the tables. A line stays from before only where the run did not ask for its cell (`compare --only`,
   `--domains`, `sweep --timed`), or skipped it since this machine lacks its peer or the memory.

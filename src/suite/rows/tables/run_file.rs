@@ -1,6 +1,6 @@
 //! `run.toml`: what made the tables beside it, and the plan as it was run.
 
-use crate::suite::rows::record::{Provenance, Row};
+use crate::suite::rows::record::Provenance;
 use serde::{Deserialize, Serialize};
 
 /// What made the tables of a folder.
@@ -33,9 +33,8 @@ impl Made {
     }
 }
 
-/// Who made some rows, after those who made the lines that stayed: one entry for each code and machine.
-pub(super) fn made(rows: &[Row], earlier: &[Made]) -> Vec<Made> {
-    let provenances = rows.iter().filter_map(|row| row.report.as_ref()?.provenance.as_ref());
+/// Who made all that, after those who made the lines that stayed: one entry for each code and machine.
+pub(super) fn made<'a>(provenances: impl Iterator<Item = &'a Provenance>, earlier: &[Made]) -> Vec<Made> {
     let now = provenances.map(|by| Made {
         by: by.clone(),
         until: by.date.clone(),

@@ -146,6 +146,7 @@ fn fill(report: &mut Report) {
 
 fn tables(rows: Vec<Row>) -> Tables {
     Tables {
+        families: Vec::new(),
         rows,
         run: RunFile {
             plan: "question = \"?\"\n\n[[group]]\nname = 'grid'\n".into(),
@@ -302,7 +303,7 @@ fn lines_stay_where_a_run_has_none() {
     new[0].report.as_mut().unwrap().provenance = Some(made("new", "2026-02-02T00:00:00Z").by);
     let gathered = |is_final: bool| {
         let keys = ["a", "b", "c", "d", "never"];
-        Tables::gather("plan", keys, &new, |_| is_final, Some(earlier.clone()))
+        Tables::gather("plan", keys, &new, |_| is_final, &[], Some(earlier.clone()))
     };
     // A peer that is not there now: its mesh stays; so does the line of d, which was not asked for.
     let stays = gathered(false);
@@ -314,7 +315,7 @@ fn lines_stay_where_a_run_has_none() {
     assert_eq!((commits, stays.run.plan.as_str()), (vec!["old", "new"], "plan"));
     // Above its budget now: that is what the plan says.
     assert_eq!(gathered(true).rows[1], new[1]);
-    let alone = Tables::gather("plan", ["a", "b"], &new, |_| true, Some(earlier.clone()));
+    let alone = Tables::gather("plan", ["a", "b"], &new, |_| true, &[], Some(earlier.clone()));
     assert_eq!(alone.run.made.len(), 1, "nothing of the earlier run stayed");
 }
 
@@ -330,7 +331,10 @@ fn who_made_it_is_told_once_for_each_code_and_machine() {
         row("y", "2026-01-03T00:00:00Z"),
         row("x", "2026-01-01T00:00:00Z"),
     ];
-    let all = run_file::made(&rows, &[]);
+    let all = run_file::made(
+        rows.iter().filter_map(|row| row.report.as_ref()?.provenance.as_ref()),
+        &[],
+    );
     assert_eq!(all.len(), 2);
     assert_eq!(
         (all[0].by.date.as_str(), all[0].until.as_str()),

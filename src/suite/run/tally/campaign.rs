@@ -1,10 +1,12 @@
 //! Deals cases of groups that are tallied out to workers, chunk by chunk, and appends a line for each chunk.
 
+use crate::suite::rows::hash::digest;
 use crate::suite::rows::journal::{Journal, JournalError, Line};
 use crate::suite::rows::machine;
 use crate::suite::rows::record::Provenance;
-use crate::suite::run::tally::chunk::Chunk;
-use crate::suite::run::tally::family::{Family, Part};
+use crate::suite::rows::tally::{Chunk, Uncertified};
+use crate::suite::run::tally::family::{Family, Part, Trial};
+use crate::suite::run::tally::trial::Tried;
 use crate::suite::run::tally::worker::Worker;
 use std::io;
 use std::path::PathBuf;
@@ -90,7 +92,7 @@ impl Campaign<'_> {
             }
             let trial = family.case(number);
             let tried = worker.run(&trial)?;
-            chunk.note(&trial, &tried, number % methods.len() == 0);
+            note(&mut chunk, &trial, &tried, number % methods.len() == 0);
         }
         chunk.provenance = Provenance {
             date: machine::now(),
@@ -98,4 +100,25 @@ impl Campaign<'_> {
         };
         Ok(Some(chunk))
     }
+}
+
+/// Counts a case; `is_new_domain` where it is the first of its domain.
+fn note(chunk: &mut Chunk, trial: &Trial, tried: &Tried, is_new_domain: bool) {
+    let method = trial.method();
+    if is_new_domain {
+        chunk.discarded += tried.discarded as u64;
+    }
+    chunk.digest = digest(&chunk.digest, &tried.fingerprint);
+    if let Some(tally) = chunk.tallies.iter_mut().find(|tally| tally.method == method) {
+        *tally.cases.entry(tried.verdict).or_default() += 1;
+        tally.triangles += tried.triangles as u64;
+        tally.seconds += tried.seconds;
+    }
+    chunk.uncertified.extend(tried.reason.iter().map(|reason| Uncertified {
+        method: method.clone(),
+        verdict: tried.verdict,
+        domain: trial.cell.domain.clone(),
+        reason: reason.clone(),
+        command: trial.command(),
+    }));
 }

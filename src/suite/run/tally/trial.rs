@@ -4,6 +4,7 @@ use crate::domain::{self, gallery};
 use crate::meshers::{Budget, Request};
 use crate::quality::{Certificate, Check};
 use crate::spacing::{SpacingError, estimate_triangles};
+use crate::suite::rows::tally::Verdict;
 use crate::suite::run::ending::guarded;
 use crate::suite::run::measure;
 use crate::suite::run::prepare::fill_in;
@@ -17,26 +18,6 @@ const INTEGRAL_ERROR: f64 = 0.02;
 
 /// Memory a worker may use, bytes; above it a mesher is stopped.
 const MOST_MEMORY: u64 = 3_000_000_000;
-
-/// How a case ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// There is a mesh, and every guaranteed check of its certificate holds.
-    Certified,
-    /// A typed error says why there is none, though the domain is valid.
-    Declined,
-    /// A budget ended it, or it was expected to need more than the budget has.
-    Stopped,
-    /// The domain is no valid PSLG, and was refused with the reason.
-    Refused,
-    /// It panicked, or ended its process.
-    Panicked,
-    /// It was not done long after its time budget.
-    Hung,
-    /// A guaranteed check of the certificate fails.
-    Invalid,
-}
 
 /// A case that was run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

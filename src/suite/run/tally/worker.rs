@@ -2,8 +2,9 @@
 //!
 //! A line of JSON for each case goes in, a line of JSON for each trial comes out.
 
+use crate::suite::rows::tally::Verdict;
 use crate::suite::run::tally::family::Trial;
-use crate::suite::run::tally::trial::{self, Tried, Verdict};
+use crate::suite::run::tally::trial::{self, Tried};
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::PathBuf;
 use std::process::{Child, ChildStdin, Command, Stdio};

@@ -1,16 +1,14 @@
-//! What an experiment expected of its batteries, held against their chunks.
+//! What it expected of cases that are tallied.
 
 use crate::suite::analysis::expect::Finding;
-use crate::suite::rows::numbers::first_seen;
+use crate::suite::rows::tally::{Family, Tally, Verdict};
 use crate::suite::run::plan::Expectations;
-use crate::suite::run::tally::chunk::{Chunk, Tally};
-use crate::suite::run::tally::trial::Verdict;
 
-/// At most so many commands are named; the chunks have them.
+/// At most so many commands are named; the tables have them.
 const NAMED: usize = 3;
 
-/// Holds every expectation of a plan against its chunks, all of them finished.
-pub fn findings(expect: &Expectations, chunks: &[Chunk]) -> Vec<Finding> {
+/// Holds every expectation of cases that are tallied against their families.
+pub(super) fn findings(expect: &Expectations, families: &[Family]) -> Vec<Finding> {
     let mut findings = Vec::new();
     let limits = [
         (Verdict::Panicked, expect.panicked, "panics or ends its process"),
@@ -19,15 +17,16 @@ pub fn findings(expect: &Expectations, chunks: &[Chunk]) -> Vec<Finding> {
     ];
     for (verdict, most, what) in limits {
         if let Some(most) = most {
-            findings.push(counted(chunks, verdict, most, what));
+            findings.push(counted(families, verdict, most, what));
         }
     }
     if let Some(most) = expect.declined_share {
-        findings.extend(by_method(chunks).iter().map(|tally| declined(tally, most)));
+        let tallies = families.iter().flat_map(|family| &family.tallies);
+        findings.extend(Tally::by_method(tallies).iter().map(|tally| declined(tally, most)));
     }
     if let Some(most) = expect.skipped_families {
-        let skipped = chunks.iter().filter(|chunk| chunk.skipped.is_some());
-        let names: Vec<&str> = skipped.map(|chunk| chunk.family.as_str()).collect();
+        let skipped = families.iter().filter(|family| family.skipped.is_some());
+        let names: Vec<&str> = skipped.map(|family| family.name.as_str()).collect();
         findings.push(Finding {
             expected: format!("at most {most} families are skipped"),
             found: format!("{} {}", names.len(), names.join(", ")).trim_end().to_owned(),
@@ -37,32 +36,10 @@ pub fn findings(expect: &Expectations, chunks: &[Chunk]) -> Vec<Finding> {
     findings
 }
 
-/// The tallies of all families, method by method, in the order in which they first stand there.
-pub fn by_method(chunks: &[Chunk]) -> Vec<Tally> {
-    sums(chunks.iter().flat_map(|chunk| &chunk.tallies), |tally| {
-        tally.method.as_str()
-    })
-}
-
-/// Tallies added up by what `name` gives, in the order in which the names first appear; the sums bear those names.
-pub fn sums<'a>(tallies: impl Iterator<Item = &'a Tally> + Clone, name: impl Fn(&'a Tally) -> &'a str) -> Vec<Tally> {
-    let one = |wanted: &str| {
-        let mut sum = Tally {
-            method: wanted.to_owned(),
-            ..Tally::default()
-        };
-        let own = tallies.clone().filter(|tally| name(tally) == wanted);
-        own.for_each(|tally| sum.add(tally));
-        sum
-    };
-    first_seen(tallies.clone().map(&name)).into_iter().map(one).collect()
-}
-
-fn counted(chunks: &[Chunk], verdict: Verdict, most: u64, what: &str) -> Finding {
-    let tallies = || chunks.iter().flat_map(|chunk| &chunk.tallies);
-    let count: u64 = tallies().map(|tally| tally.count(verdict)).sum();
-    let tried: u64 = tallies().map(Tally::tried).sum();
-    let uncertified = chunks.iter().flat_map(|chunk| &chunk.uncertified);
+fn counted(families: &[Family], verdict: Verdict, most: u64, what: &str) -> Finding {
+    let all = Tally::sum("", families.iter().flat_map(|family| &family.tallies));
+    let (count, tried) = (all.count(verdict), all.tried());
+    let uncertified = families.iter().flat_map(|family| &family.uncertified);
     let commands = uncertified.filter(|case| case.verdict == verdict);
     let named: Vec<String> = commands.take(NAMED).map(|case| format!("`{}`", case.command)).collect();
     let found = format!("{count} of {tried} {}", named.join(", "));
@@ -92,14 +69,21 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    fn chunk(family: &str, cases: &[(Verdict, u64)]) -> Chunk {
-        let mut chunk = Chunk::new(family, family, vec!["biting".into()]);
-        chunk.tallies[0].cases = BTreeMap::from_iter(cases.iter().copied());
-        chunk
+    fn family(name: &str, cases: &[(Verdict, u64)]) -> Family {
+        let tally = Tally {
+            method: "biting".into(),
+            cases: BTreeMap::from_iter(cases.iter().copied()),
+            ..Tally::default()
+        };
+        Family {
+            name: name.into(),
+            tallies: vec![tally],
+            ..Family::default()
+        }
     }
 
-    fn holds(expect: &Expectations, chunks: &[Chunk]) -> Vec<bool> {
-        findings(expect, chunks).iter().map(|finding| finding.holds).collect()
+    fn holds(expect: &Expectations, families: &[Family]) -> Vec<bool> {
+        findings(expect, families).iter().map(|finding| finding.holds).collect()
     }
 
     #[test]
@@ -112,7 +96,7 @@ mod tests {
             skipped_families: Some(0),
             ..Expectations::default()
         };
-        let good = chunk(
+        let good = family(
             "a",
             &[(Verdict::Certified, 99), (Verdict::Declined, 1), (Verdict::Stopped, 0)],
         );
@@ -124,18 +108,18 @@ mod tests {
             let mut wanted = [true; 5];
             wanted[place] = false;
             assert_eq!(
-                holds(&expect, &[good.clone(), chunk("b", &[(verdict, 1)])]),
+                holds(&expect, &[good.clone(), family("b", &[(verdict, 1)])]),
                 wanted,
                 "{verdict:?}"
             );
         }
         // What is refused is no valid domain, so it does not make the share smaller.
-        let refused = chunk("b", &[(Verdict::Declined, 1), (Verdict::Refused, 1000)]);
+        let refused = family("b", &[(Verdict::Declined, 1), (Verdict::Refused, 1000)]);
         assert_eq!(
             holds(&expect, &[good.clone(), refused]),
             [true, true, true, false, true]
         );
-        let mut skipped = chunk("b", &[]);
+        let mut skipped = family("b", &[]);
         skipped.skipped = Some("not there".into());
         assert_eq!(holds(&expect, &[good, skipped]), [true, true, true, true, false]);
         assert!(findings(&Expectations::default(), &[]).is_empty());

@@ -1,19 +1,15 @@
-//! Experiments of batteries: cases run by processes of their own, tallied by chunks.
+//! Groups that are tallied: their cases run by processes of their own, chunk by chunk.
 
 use super::exit::{Failure, Outcome};
 use super::output::{say, say_aside};
-use super::shards::{file_name, say_done};
-use crate::suite::analysis::expect_battery::findings;
-use crate::suite::analysis::results::PLAN;
-use crate::suite::files::write_whole;
+use super::shards::file_name;
+use super::sweep::How;
 use crate::suite::rows::journal::Journal;
 use crate::suite::rows::machine;
+use crate::suite::rows::tally::{CHUNKS, Chunk, Tally, Verdict};
 use crate::suite::run::plan::Plan;
-use crate::suite::run::tally::CHUNKS;
 use crate::suite::run::tally::campaign::{Campaign, Watch};
-use crate::suite::run::tally::chunk::{Chunk, Tally};
 use crate::suite::run::tally::family::{Family, Part};
-use crate::suite::run::tally::trial::Verdict;
 use crate::suite::run::tally::worker;
 use crate::suite::run::work::Shard;
 use std::path::Path;
@@ -26,14 +22,6 @@ pub const WORKER: &str = "run-cases";
 /// A line at most this often, besides those about what must not be.
 const LINE_EVERY: Duration = Duration::from_secs(5);
 
-/// What the command line says of a run.
-pub struct Run {
-    pub fresh: bool,
-    pub dry_run: bool,
-    pub shard: Option<Shard>,
-    pub threads: usize,
-}
-
 /// Runs cases that come in on standard input: what a worker does.
 pub fn work() -> Outcome {
     // This very thread as rayon's only one: handing work to another costs more than small cases are worth. Where there are
@@ -43,8 +31,8 @@ pub fn work() -> Outcome {
     worker::serve(std::io::stdin().lock(), std::io::stdout().lock()).map_err(Failure::input)
 }
 
-/// Runs what has no line yet, then writes the page and tells what was expected.
-pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
+/// Runs the chunks of a plan that have no line yet, or the part of them that a shard has. Returns all, but for a dry run or a shard.
+pub fn run(plan: &Plan, folder: &Path, how: &How, shard: Option<Shard>) -> Result<Option<Vec<Chunk>>, Failure> {
     let families = Family::all(plan);
     for family in &families {
         family
@@ -55,23 +43,26 @@ pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
         .iter()
         .flat_map(|family| family.chunks().into_iter().map(move |part| (family, part)))
         .collect();
+    if parts.is_empty() {
+        return Ok((!how.dry_run && shard.is_none()).then(Vec::new));
+    }
     let cases: usize = families.iter().map(Family::cases).sum();
-    if run.dry_run {
+    if how.dry_run {
         for family in &families {
             let missing = family.missing.as_deref().unwrap_or_default();
             say(format_args!("{}: {} cases {missing}", family.name, family.cases()));
         }
         say(format_args!("{}: {cases} cases in {} chunks", plan.name, parts.len()));
-        return Ok(());
+        return Ok(None);
     }
-    let mut journal: Journal<Chunk> = super::sweep::open(&folder.join(file_name(CHUNKS, run.shard)))?;
+    let mut journal: Journal<Chunk> = super::sweep::open(&folder.join(file_name(CHUNKS, shard)))?;
     let provenance = machine::provenance();
     let is_complete = parts.iter().all(|(_, part)| journal.get(&part.key).is_some());
     let is_other = journal
         .lines()
         .iter()
         .any(|line| line.row.provenance.commit != provenance.commit);
-    if (run.fresh || (is_complete && is_other))
+    if (how.fresh || (is_complete && is_other))
         && let Some(kept) = journal.set_aside(&provenance.date).map_err(Failure::input)?
     {
         say(format_args!(
@@ -80,7 +71,7 @@ pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
         ));
     }
     let mut pending = parts.clone();
-    if let Some(shard) = run.shard {
+    if let Some(shard) = shard {
         let all = pending.into_iter().enumerate();
         pending = all.filter(|(at, _)| shard.has(*at)).map(|(_, part)| part).collect();
     }
@@ -96,43 +87,22 @@ pub fn run(plan: &Plan, folder: &Path, run: &Run) -> Outcome {
     let campaign = Campaign {
         worker: (program, &[WORKER]),
         provenance: &provenance,
-        threads: run.threads,
+        threads: how.threads(),
         watch: &progress,
     };
     campaign.run(&pending, &mut journal).map_err(Failure::input)?;
     journal
         .settle(parts.iter().map(|(_, part)| part.key.as_str()))
         .map_err(Failure::input)?;
-    if let Some(shard) = run.shard {
-        say_done(shard);
-        return Ok(());
-    }
-    let chunks: Vec<Chunk> = journal.lines().iter().map(|line| line.row.clone()).collect();
-    finish(plan, folder, &chunks)
+    Ok(shard
+        .is_none()
+        .then(|| journal.lines().iter().map(|line| line.row.clone()).collect()))
 }
 
 /// The keys of all chunks of a plan.
 pub fn keys(plan: &Plan) -> Vec<String> {
     let families = Family::all(plan);
     families.iter().flat_map(Family::chunks).map(|part| part.key).collect()
-}
-
-/// Page and verdict, once every chunk has a line.
-pub fn finish(plan: &Plan, folder: &Path, chunks: &[Chunk]) -> Outcome {
-    let copy = folder.join(PLAN);
-    write_whole(&copy, plan.text.as_bytes()).map_err(|cause| Failure::Input(format!("{}: {cause}", copy.display())))?;
-    for chunk in chunks {
-        if let Some(reason) = &chunk.skipped {
-            say(format_args!("skipped {}: {reason}", chunk.family));
-        }
-    }
-    if chunks.iter().all(|chunk| chunk.tallies.is_empty()) {
-        return Err(Failure::NothingMeasured(
-            "nothing could be measured: no family has cases".into(),
-        ));
-    }
-    super::report::write(folder)?;
-    super::sweep::tell(&findings(&plan.expect, chunks))
 }
 
 /// Tells how far a campaign is.
