@@ -28,6 +28,9 @@ pub enum TableError {
     },
 }
 
+/// What a line says in a column, if anything.
+type Value<R> = Box<dyn Fn(&R) -> Option<String>>;
+
 /// A column of lines of type `R`.
 pub struct Column<R> {
     /// Its name in the head.
@@ -40,7 +43,7 @@ pub struct Column<R> {
     pub paper: &'static str,
     /// What a reader takes where the column is missing: it is left out of a table whose lines all say this or nothing.
     pub default: Option<&'static str>,
-    value: Box<dyn Fn(&R) -> Option<String>>,
+    value: Value<R>,
 }
 
 impl<R> Column<R> {
